@@ -1,0 +1,20 @@
+/// Small helpers over vn_resize().
+#ifndef VN_BASE_MEMORY_H
+#define VN_BASE_MEMORY_H
+
+#include "base/status.h"
+
+#include <string.h>
+
+/// @p size zeroed bytes, or NULL. Freed by vn_resize(block, size, 0).
+void *vn_new_block(size_t size);
+
+/// A zeroed T, or NULL; freed by vn_delete().
+#define VN_NEW(T) ((T *)vn_new_block(sizeof(T)))
+#define VN_DELETE(object) ((void)vn_resize((object), (object) != NULL ? sizeof *(object) : 0, 0))
+
+/// A copy of @p text, or NULL; freed by vn_free_text(), which accepts NULL.
+char *vn_copy_text(const char *text);
+void vn_free_text(char *text);
+
+#endif

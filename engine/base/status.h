@@ -1,0 +1,19 @@
+/// Passing statuses up, for the engine's own files.
+#ifndef VN_BASE_STATUS_H
+#define VN_BASE_STATUS_H
+
+#include "venule/base.h"
+
+/// Return from the calling function when @p call fails.
+#define VN_TRY(call)                                                                                         \
+    do {                                                                                                     \
+        vn_status vn_try_status = (call);                                                                    \
+        if (vn_try_status != VN_OK) {                                                                        \
+            return vn_try_status;                                                                            \
+        }                                                                                                    \
+    } while (0)
+
+/// The failure of an allocation of @p bytes for @p what.
+vn_status vn_fail_memory(const char *what, size_t bytes);
+
+#endif

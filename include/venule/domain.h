@@ -1,0 +1,90 @@
+/// @file domain.h
+/// Where something may grow. A domain answers whether a point is inside, how far its border is, and gives
+/// uniform samples; domains combine by difference, union and intersection.
+#ifndef VENULE_DOMAIN_H
+#define VENULE_DOMAIN_H
+
+#include "venule/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Shared and immutable: many may hold one. Points are double[3] throughout; a 2D domain ignores the third.
+typedef struct vn_domain vn_domain;
+
+/// An axis-parallel box. In 2D the third components are 0.
+typedef struct vn_box {
+    double min[3];
+    double max[3];
+} vn_box;
+
+/// Hold the domain once more; returns it.
+VN_API vn_domain *vn_domain_retain(const vn_domain *domain);
+/// Let it go; the last one to do so destroys it. NULL is accepted.
+VN_API void vn_domain_release(vn_domain *domain);
+
+typedef struct vn_disk_def {
+    double center[3]; ///< default the origin
+    double radius;    ///< > 0; default 1
+} vn_disk_def;
+VN_API vn_disk_def vn_disk_def_default(void);
+/// A disk in 2D. VN_INVALID for a radius of 0 or less.
+VN_API vn_status vn_domain_disk(vn_domain **out, const vn_disk_def *def);
+/// A ball in 3D, of the same definition.
+VN_API vn_status vn_domain_sphere(vn_domain **out, const vn_disk_def *def);
+
+typedef struct vn_box_def {
+    double min[3]; ///< default {0, 0}
+    double max[3]; ///< default {1, 1}; above min in every direction
+    int32_t dim;   ///< 2 or 3; default 2
+} vn_box_def;
+VN_API vn_box_def vn_box_def_default(void);
+VN_API vn_status vn_domain_box(vn_domain **out, const vn_box_def *def);
+
+/// A polygon with holes. @p xy holds the rings one after another as x, y, x, y, …; ring i has @p ring_sizes[i] points
+/// (3 or more, the first not repeated at the end). Orientation is free: a ring inside an odd number of others is a
+/// hole. VN_INVALID for a ring that crosses itself or another (the message says where), has no area or is not finite.
+VN_API vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int32_t *ring_sizes, int32_t rings);
+
+typedef struct vn_profile_def {
+    double length;            ///< from base (0, 0) to tip (0, length); > 0; default 1
+    const double *half_width; ///< its half width at equal steps from base to tip, each 0 or more; borrowed
+    int32_t samples;          ///< how many, 3 or more
+} vn_profile_def;
+VN_API vn_profile_def vn_profile_def_default(void);
+/// A leaf blade that mirrors in its midrib, the y axis.
+VN_API vn_status vn_domain_profile(vn_domain **out, const vn_profile_def *def);
+
+typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_combination;
+/// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every answer.
+/// Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere it is never more
+/// than the true distance. VN_INVALID when the dimensions differ; VN_INFEASIBLE when nothing is left.
+VN_API vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b, vn_combination how);
+
+/// 2 or 3.
+VN_API int vn_domain_dim(const vn_domain *domain);
+/// The length unit of its coordinates as its file gave it ("mm"), or "".
+VN_API const char *vn_domain_unit(const vn_domain *domain);
+VN_API vn_box vn_domain_bounds(const vn_domain *domain);
+/// Its area (2D) or volume (3D). Combinations that are not polygons are measured to about 1e-5 of it.
+VN_API double vn_domain_measure(const vn_domain *domain);
+/// Whether @p p is inside. Points on the border itself may be either, but always the same.
+VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);
+/// The distance to the border: positive inside, negative outside.
+VN_API double vn_domain_distance(const vn_domain *domain, const double p[3]);
+/// The point @p q of the border that is nearest to @p p.
+VN_API void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]);
+/// Whether the straight line from @p a to @p b stays inside from end to end.
+VN_API bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]);
+/// The domain's value at @p p, in [0, 1]: 1 inside and 0 outside where it has no values of its own.
+VN_API double vn_domain_value(const vn_domain *domain, const double p[3]);
+
+/// A uniformly distributed point inside, into @p p. VN_INFEASIBLE when a million darts into its bounds all miss.
+VN_API vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,99 @@
+/// @file network.h
+/// What grows: a forest of nodes, each with one parent or none, and joins, the extra edges that close loops.
+#ifndef VENULE_NETWORK_H
+#define VENULE_NETWORK_H
+
+#include "venule/base.h"
+#include "venule/domain.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Nodes are numbered from 0 in the order in which they were added.
+typedef struct vn_network vn_network;
+
+typedef struct vn_network_def {
+    int32_t dim;        ///< 2 or 3; default 2
+    int32_t max_nodes;  ///< a network that grows beyond it fails with VN_LIMIT; default 100,000,000
+    const char *unit;   ///< the length unit that files carry ("mm"), "" for none; copied
+} vn_network_def;
+VN_API vn_network_def vn_network_def_default(void);
+VN_API vn_status vn_network_create(vn_network **out, const vn_network_def *def);
+VN_API void vn_network_destroy(vn_network *network);
+
+/// Radii by Murray's law (Runions §3.5): r_parent^exponent = Σ r_child^exponent, from the tips' radius up.
+typedef struct vn_murray_def {
+    double exponent;   ///< > 0, at most 100; default 3
+    double tip_radius; ///< > 0; default 1
+} vn_murray_def;
+VN_API vn_murray_def vn_murray_def_default(void);
+/// From now on the radii follow the law, however the network grows.
+VN_API vn_status vn_network_murray(vn_network *network, const vn_murray_def *def);
+
+/// Add a root at @p p; its index into @p node (which may be NULL). VN_INVALID for a point that is not finite.
+VN_API vn_status vn_network_root(vn_network *network, const double p[3], int32_t *node);
+/// Add a child of @p parent. VN_INVALID for a parent that does not exist.
+VN_API vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3], int32_t *node);
+/// Close a loop: an extra edge between @p a and @p b. VN_INVALID when they are the same or already neighbours.
+VN_API vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radius);
+/// The step that nodes added from now on were born in; 0 at first. vn_extend() counts it on.
+VN_API void vn_network_set_step(vn_network *network, int32_t step);
+VN_API int32_t vn_network_step(const vn_network *network);
+
+VN_API int vn_network_dim(const vn_network *network);
+VN_API const char *vn_network_unit(const vn_network *network);
+VN_API int32_t vn_network_count(const vn_network *network);
+VN_API int32_t vn_network_join_count(const vn_network *network);
+VN_API void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b, double *radius);
+
+/// Columns, one entry a node; borrowed until the network next changes. `z` is NULL in 2D.
+VN_API const double *vn_network_x(const vn_network *network);
+VN_API const double *vn_network_y(const vn_network *network);
+VN_API const double *vn_network_z(const vn_network *network);
+/// -1 at a root.
+VN_API const int32_t *vn_network_parent(const vn_network *network);
+/// Which root a node hangs from, roots counted from 0.
+VN_API const int32_t *vn_network_tree(const vn_network *network);
+/// The step a node was born in.
+VN_API const int32_t *vn_network_birth(const vn_network *network);
+/// The children of a node: the first, and from each the next; -1 ends.
+VN_API int32_t vn_network_first_child(const vn_network *network, int32_t node);
+VN_API int32_t vn_network_next_child(const vn_network *network, int32_t child);
+
+/// The radius of the edge between @p node and its parent; at a root, that of its thickest child. 0 where nothing is
+/// known of radii: neither vn_network_murray() nor a file gave them.
+VN_API double vn_network_radius(const vn_network *network, int32_t node);
+
+/// The nodes so that every parent comes before its children; borrowed until the network next changes. The one order
+/// in which everything walks the network. NULL means the order of the indices themselves.
+VN_API vn_status vn_network_order(const vn_network *network, const int32_t **order);
+
+typedef enum vn_order_kind {
+    VN_STRAHLER, ///< tips 1; one more where two children of the highest order meet
+    VN_HORTON,   ///< Strahler's, each vein keeping its highest order up its length
+    VN_HICKEY,   ///< 1 from the root along the thickest child; a lateral has one more than what it leaves
+} vn_order_kind;
+/// Compute the order of every node's edge; read by vn_network_orders(). At equal width the lower index leads.
+VN_API vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind);
+/// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or are outdated.
+VN_API const int32_t *vn_network_orders(const vn_network *network);
+
+/// What a network measures.
+typedef struct vn_network_measures {
+    int32_t nodes, roots, tips, bifurcations, joins; ///< a bifurcation is a node with two children or more
+    int32_t depth;                                   ///< edges from a root to the farthest tip
+    double length;                                   ///< of all edges, joins included
+    vn_box extent;                                   ///< of the nodes; all 0 when empty
+    double min_radius, max_radius;                   ///< of the edges; 0 where radii are not known
+} vn_network_measures;
+VN_API vn_status vn_network_measure(const vn_network *network, vn_network_measures *out);
+
+/// Multiply all coordinates and all known radii by @p factor (> 0).
+VN_API vn_status vn_network_scale(vn_network *network, double factor);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
