@@ -9,6 +9,7 @@ static struct {
     atomic_size_t peak;
     atomic_size_t budget;
     atomic_llong refuse_after; // allocations left before all are refused; negative: never
+    atomic_ullong serial;      // of the last object made; never shows in a result
 } vn_memory = {.refuse_after = -1};
 
 static bool refused_for_a_test(void) {
@@ -85,6 +86,10 @@ void *vn_new_block(size_t size) {
         memset(block, 0, size);
     }
     return block;
+}
+
+uint64_t vn_next_serial(void) {
+    return atomic_fetch_add(&vn_memory.serial, 1) + 1;
 }
 
 char *vn_copy_text(const char *text) {

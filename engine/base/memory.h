@@ -17,4 +17,7 @@ void *vn_new_block(size_t size);
 char *vn_copy_text(const char *text);
 void vn_free_text(char *text);
 
+/// A number that no object of this process had before: identity that outlives a pointer.
+uint64_t vn_next_serial(void);
+
 #endif

@@ -1,5 +1,6 @@
 /// @file attractors.h
-/// Points that attract: auxin sources, oxygen drains.
+/// Points that attract (auxin sources, oxygen drains), and the steps of space colonisation:
+/// throw → influence → extend → consume (Runions et al. 2005, sections 3.3 and 3.4).
 #ifndef VENULE_ATTRACTORS_H
 #define VENULE_ATTRACTORS_H
 
@@ -10,7 +11,94 @@
 extern "C" {
 #endif
 
+/// A set of attractors, numbered from 0. Consumed ones leave the set, and those after them move up.
 typedef struct vn_attractors vn_attractors;
+
+typedef struct vn_attractors_def {
+    int32_t dim;  ///< 2 or 3; default 2
+    int64_t seed; ///< decides ties between nodes that are equally near (READINGS R3); default 0
+} vn_attractors_def;
+VN_API vn_attractors_def vn_attractors_def_default(void);
+VN_API vn_status vn_attractors_create(vn_attractors **out, const vn_attractors_def *def);
+VN_API void vn_attractors_destroy(vn_attractors *attractors);
+
+/// Add one. VN_INVALID for a point that is not finite.
+VN_API vn_status vn_attractors_add(vn_attractors *attractors, const double p[3]);
+VN_API int vn_attractors_dim(const vn_attractors *attractors);
+VN_API int32_t vn_attractors_count(const vn_attractors *attractors);
+/// Where attractor @p index is, into @p p.
+VN_API vn_status vn_attractors_position(vn_attractors *attractors, int32_t index, double p[3]);
+
+/// Those that were given up so far, and why.
+typedef struct vn_retired {
+    int32_t hidden;  ///< no node sees them without leaving the domain
+    int32_t circled; ///< veins grew for them many times and came no nearer (segments too long for the kill distance)
+} vn_retired;
+VN_API vn_retired vn_attractors_retired(const vn_attractors *attractors);
+/// Those that wait beyond a marginal blade's margin.
+VN_API int32_t vn_attractors_dormant(const vn_attractors *attractors);
+
+typedef struct vn_throw_def {
+    vn_domain *domain;    ///< where; held by the set until it is destroyed when its margin grows
+    int32_t count;        ///< darts; or
+    double density;       ///< darts per area (volume) of the domain; what is less than one dart is carried to the next call
+    double spacing;       ///< birth distance b_s: a dart this close to an attractor is refused; 0: none is
+    double clearance;     ///< birth distance b_v: a dart this close to a node of `network` is refused; 0: none is
+    vn_network *network;  ///< what to keep clear of; may be NULL
+    vn_rng *rng;          ///< required; moves on by one
+} vn_throw_def;
+VN_API vn_throw_def vn_throw_def_default(void);
+/// Throw darts, uniformly distributed over the domain; one after another each is accepted when it is farther than
+/// `spacing` from all attractors, those of this call included, and farther than `clearance` from all nodes.
+/// Into a marginal growth, the darts of the whole grown shape's square are thrown once, and each call releases those
+/// that the margin has passed since (READINGS R2). @p accepted gets how many were added. VN_INFEASIBLE when no dart can
+/// hit the domain.
+VN_API vn_status vn_throw(vn_attractors *attractors, const vn_throw_def *def, int32_t *accepted);
+/// Release the dormant attractors that the margin of the domain has passed; what vn_throw() does by itself.
+VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int32_t *released);
+
+typedef struct vn_influence_def {
+    int mode;      ///< 0 "nearest": each attractor influences the node nearest to it
+    double within; ///< attraction distance: nodes farther away are not influenced; 0 (the default): any distance
+} vn_influence_def;
+VN_API vn_influence_def vn_influence_def_default(void);
+
+/// Which attractors influence which nodes: pairs sorted by attractor, then node.
+typedef struct vn_influence vn_influence;
+/// Find them. Equally near nodes are ranked by a hash of (seed, attractor, node). The result is good until the attractors
+/// or the network change; a later call may reuse @p *out, which is NULL at first.
+VN_API vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
+                                   const vn_influence_def *def);
+VN_API void vn_influence_destroy(vn_influence *influence);
+VN_API int32_t vn_influence_count(const vn_influence *influence);
+/// The attractor of a pair, as vn_attractors_position() numbers them; -1 when the influence is not current.
+VN_API int32_t vn_influence_attractor(const vn_influence *influence, int32_t pair);
+VN_API int32_t vn_influence_node(const vn_influence *influence, int32_t pair);
+/// Whether neither the attractors nor the network changed since.
+VN_API bool vn_influence_current(const vn_influence *influence);
+
+typedef struct vn_extend_def {
+    double length;     ///< D, the length of a vein segment; > 0; default 1
+    vn_domain *domain; ///< an edge that would leave it is not made; may be NULL
+} vn_extend_def;
+VN_API vn_extend_def vn_extend_def_default(void);
+/// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that direction vanishes,
+/// or has a child already, the node grows toward its first-ranked attractor alone (READINGS R3). Where the edge would leave
+/// the domain, each of the attractors is tried alone, then given to the nearest node that sees it, and retired when there
+/// is none. @p added gets how many nodes there are more, @p first the index of the first. Counts the network's step on.
+/// When it adds none, and neither attractors nor domain change, no later call will.
+VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def, int32_t *added,
+                           int32_t *first);
+
+typedef struct vn_consume_def {
+    double distance;     ///< kill distance d_k; > 0; default 1
+    int mode;            ///< 0 "any": one node closer than the distance is enough
+    vn_attractors *into; ///< consumed ones are added to this set; may be NULL
+} vn_consume_def;
+VN_API vn_consume_def vn_consume_def_default(void);
+/// Remove the attractors that a node has reached. @p consumed gets how many.
+VN_API vn_status vn_consume(vn_attractors *attractors, vn_network *network, const vn_consume_def *def,
+                            int32_t *consumed);
 
 #ifdef __cplusplus
 }

@@ -30,9 +30,9 @@ extern "C" {
 #endif
 
 #if defined(__GNUC__)
-#define VN_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define VN_PRINTF(at, first) __attribute__((format(printf, at, first)))
 #else
-#define VN_PRINTF(format, first)
+#define VN_PRINTF(at, first)
 #endif
 
 /// How a call ended. The program's exit status follows from it (vn_exit_status()).

@@ -1,0 +1,106 @@
+/// The set of attractors from inside: what each remembers, and how that is kept current.
+#ifndef VN_COLONIZE_ATTRACTORS_H
+#define VN_COLONIZE_ATTRACTORS_H
+
+#include "base/schema.h"
+#include "network/network.h"
+#include "space/reach_tree.h"
+#include "venule/attractors.h"
+
+extern const vn_schema vn_attractors_schema;
+extern const vn_schema vn_throw_schema;
+extern const vn_schema vn_influence_schema;
+extern const vn_schema vn_extend_schema;
+extern const vn_schema vn_consume_schema;
+
+/// A dart beyond a growing margin, and the length of the blade at which the margin passes it.
+typedef struct vn_dormant {
+    double arrival;
+    double p[3];
+} vn_dormant;
+
+/// Attractors keep their place here when one is consumed (`near2` turns negative), and move up only when more than half
+/// are gone; the public numbering passes over the gaps.
+///
+/// Each remembers the node nearest to it. A new node is shown to those it may be nearer to (the reach tree), a new
+/// attractor asks the network's grid: so a step costs what changed, not what there is.
+struct vn_attractors {
+    int dim;
+    uint64_t seed;
+    VN_ARRAY(double) x;
+    VN_ARRAY(double) y;
+    VN_ARRAY(double) z;       ///< 3D only
+    VN_ARRAY(double) near2;   ///< squared distance of `node`, or of the reach while there is none; negative: gone
+    VN_ARRAY(int32_t) node;   ///< the nearest, or the nearest that sees it (HIDDEN); -1: none within reach
+    VN_ARRAY(uint32_t) id;    ///< by birth; what ties are hashed by
+    VN_ARRAY(float) best;     ///< the distance from which progress is counted
+    VN_ARRAY(uint8_t) idle;   ///< steps without progress, and the flag HIDDEN
+    int32_t gone;
+    uint32_t born;
+    uint64_t version;
+    vn_retired retired;
+
+    // What the remembered nodes were taken from.
+    uint64_t network_serial, network_moved;
+    double reach2;
+    int32_t nodes_seen, attractors_seen;
+    vn_reach_tree tree;
+    int32_t tree_count; ///< attractors from here on are not in the tree yet
+    vn_reach_hits hits; ///< working memory
+
+    VN_ARRAY(int32_t) active;    ///< those that have a node, ascending; gone ones are dropped when it is next read
+    vn_keyed_array activated;    ///< those that got their first node since
+    vn_keyed_array scratch;
+    vn_reach_hits fresh;         ///< those that a node came nearer to since the last consume
+    bool fresh_all;              ///< too many to list
+    double consumed2;            ///< kill distance² up to which all the others were consumed
+
+    vn_point_grid grid;          ///< of the attractors, for `spacing`
+    VN_ARRAY(int32_t) present;   ///< the public numbering
+    uint64_t present_version;
+
+    double carry;                ///< the fraction of a dart that is still to be thrown
+    vn_domain *sight;            ///< what hides nodes from attractors
+    vn_domain *margin;           ///< what the dormant ones wait for
+    double margin_clearance;
+    VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last
+};
+
+enum { VN_HIDDEN = 0x80, VN_IDLE = 0x7F };
+
+static inline vn_points vn_attractors_points(const vn_attractors *a) {
+    return (vn_points){a->x.data, a->y.data, a->dim == 3 ? a->z.data : NULL};
+}
+
+static inline bool vn_is_gone(const vn_attractors *a, int32_t i) {
+    return a->near2.data[i] < 0;
+}
+
+/// Take attractor @p i out; its place stays until vn_attractors_tidy().
+void vn_attractors_remove(vn_attractors *a, int32_t i);
+
+/// Close the gaps when they are more than half. What holds internal numbers must not be in use.
+vn_status vn_attractors_tidy(vn_attractors *a);
+
+/// Bring the remembered nodes up to date with @p network, for all nodes up to @p reach away.
+vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach);
+
+/// The attractors in a grid for queries of @p reach; gone ones are in it too.
+vn_status vn_attractors_grid(vn_attractors *a, double reach);
+
+/// The internal number of public number @p index, or -1; and back.
+vn_status vn_attractors_number(vn_attractors *a, int32_t index, int32_t *internal);
+int32_t vn_attractors_public(vn_attractors *a, int32_t internal);
+
+/// Pairs of attractors (internal numbers) and nodes.
+struct vn_influence {
+    vn_attractors *attractors;
+    vn_network *network;
+    uint64_t attractors_version, network_version;
+    VN_ARRAY(int32_t) attractor;
+    VN_ARRAY(int32_t) node;
+    vn_keyed_array by_node; ///< working memory of vn_extend()
+    vn_keyed_array scratch;
+};
+
+#endif

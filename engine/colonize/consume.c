@@ -1,0 +1,82 @@
+#include "colonize/attractors.h"
+
+static const vn_consume_def consume_default = {.distance = 1};
+
+static const vn_field consume_fields[] = {
+    {"distance", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_consume_def, distance), 0, VN_HUGE, "length", NULL,
+     "kill distance: an attractor that a node is closer to is consumed"},
+    {"mode", VN_CHOICE, 0, offsetof(vn_consume_def, mode), 0, 0, "", "any",
+     "how many nodes must be that close: any one (open venation, Runions §3.3)"},
+    {"into", VN_OBJECT, 0, offsetof(vn_consume_def, into), 0, 0, "", "attractors",
+     "a set that the consumed ones are added to"},
+};
+const vn_schema vn_consume_schema = {
+    "consume", "Remove the attractors that were reached", consume_fields, 3, sizeof(vn_consume_def), &consume_default};
+
+vn_consume_def vn_consume_def_default(void) {
+    return consume_default;
+}
+
+static vn_status consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32_t *consumed) {
+    double p[3];
+    vn_points points = vn_attractors_points(a);
+    vn_points_get(&points, i, p);
+    if (into != NULL) {
+        VN_TRY(vn_attractors_add(into, p));
+    }
+    vn_attractors_remove(a, i);
+    ++*consumed;
+    return VN_OK;
+}
+
+// A hidden attractor remembers the nearest node that sees it; any node may consume it.
+static bool is_reached(const vn_attractors *a, const vn_network *network, int32_t i, double distance) {
+    if (!(a->idle.data[i] & VN_HIDDEN)) {
+        return a->node.data[i] >= 0 && a->near2.data[i] < distance * distance;
+    }
+    double p[3];
+    vn_points points = vn_attractors_points(a);
+    vn_points nodes = vn_network_points(network);
+    vn_points_get(&points, i, p);
+    return vn_point_grid_any_within(&network->grid, &nodes, p, distance, NULL, NULL) >= 0;
+}
+
+static vn_status consume_all(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {
+    const vn_point_grid *grid;
+    VN_TRY(vn_network_grid(network, 0, &grid));
+    for (int32_t i = 0; i < a->x.count; i++) {
+        if (!vn_is_gone(a, i) && is_reached(a, network, i, def->distance)) {
+            VN_TRY(consume_one(a, i, def->into, consumed));
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status consume_fresh(vn_attractors *a, const vn_consume_def *def, int32_t *consumed) {
+    double distance2 = def->distance * def->distance;
+    for (int32_t k = 0; k < a->fresh.count; k++) {
+        const vn_reach_hit *hit = &a->fresh.data[k];
+        if (hit->distance2 < distance2 && !vn_is_gone(a, hit->point)) {
+            VN_TRY(consume_one(a, hit->point, def->into, consumed));
+        }
+    }
+    return VN_OK;
+}
+
+vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {
+    *consumed = 0;
+    VN_TRY(vn_check_def(&vn_consume_schema, def));
+    if (def->into == a || (def->into != NULL && def->into->dim != a->dim)) {
+        return vn_fail(VN_INVALID, "consume.into must be another set of attractors, of %d dimensions", a->dim);
+    }
+    VN_TRY(vn_attractors_sync(a, network, def->distance));
+    double distance2 = def->distance * def->distance;
+    bool all = a->fresh_all || distance2 > a->consumed2;
+    vn_status status = all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
+    if (status == VN_OK) {
+        a->fresh.count = 0;
+        a->fresh_all = false;
+        a->consumed2 = distance2;
+    }
+    return status;
+}

@@ -1,0 +1,247 @@
+// New vein nodes (Runions et al. 2005, Equation 1), with the guards of READINGS R3: no child where one is, every run ends.
+
+#include "colonize/attractors.h"
+
+static const vn_extend_def extend_default = {.length = 1};
+
+static const vn_field extend_fields[] = {
+    {"length", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_extend_def, length), 0, 1e150, "length", NULL,
+     "D, the length of a new vein segment"},
+    {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
+     "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
+};
+const vn_schema vn_extend_schema = {"extend", "Grow the influenced nodes by one segment", extend_fields, 2,
+                                    sizeof(vn_extend_def), &extend_default};
+
+vn_extend_def vn_extend_def_default(void) {
+    return extend_default;
+}
+
+enum { PATIENCE = 24 }; // calls of extend that an attractor may pull in without a vein coming nearer
+
+/// One call of vn_extend().
+typedef struct extension {
+    vn_network *network;
+    vn_influence *influence;
+    vn_attractors *a;
+    const vn_extend_def *def;
+    int32_t node;                ///< the node that is to grow
+    const vn_keyed *begin, *end; ///< its pairs; their values are attractors
+} extension;
+
+static double direction_to(const extension *e, int32_t node, int32_t attractor, double n[3]) {
+    double p[3], q[3];
+    vn_points points = vn_attractors_points(e->a);
+    vn_network_position(e->network, node, p);
+    vn_points_get(&points, attractor, q);
+    double length = sqrt(vn_distance2(p, q));
+    for (int k = 0; k < 3; k++) {
+        n[k] = length > 0 ? (q[k] - p[k]) / length : 0;
+    }
+    return length;
+}
+
+static void step_from(const extension *e, int32_t node, const double n[3], double p[3]) {
+    double q[3];
+    vn_network_position(e->network, node, q);
+    for (int k = 0; k < 3; k++) {
+        p[k] = q[k] + e->def->length * n[k];
+    }
+}
+
+// Coordinates repeat exactly when directions do, but for rounding.
+static bool has_child_at(const extension *e, int32_t node, const double p[3]) {
+    const vn_network *network = e->network;
+    double near = 1e-6 * e->def->length;
+    for (int32_t c = network->first_child.data[node]; c >= 0; c = network->next_child.data[c]) {
+        double q[3];
+        vn_network_position(network, c, q);
+        if (vn_distance2(p, q) < near * near) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool stays_inside(const extension *e, int32_t node, const double p[3]) {
+    double q[3];
+    vn_network_position(e->network, node, q);
+    return e->def->domain == NULL || vn_domain_sees(e->def->domain, q, p);
+}
+
+static bool mean_direction(const extension *e, double n[3]) {
+    double sum[3] = {0, 0, 0};
+    for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
+        double one[3];
+        direction_to(e, e->node, pair->value, one);
+        for (int k = 0; k < 3; k++) {
+            sum[k] += one[k];
+        }
+    }
+    double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    bool vanishes = length <= 1e-12 * (double)(e->end - e->begin);
+    for (int k = 0; k < 3; k++) {
+        n[k] = vanishes ? 0 : sum[k] / length;
+    }
+    return !vanishes;
+}
+
+// Whether a step toward this attractor alone leads to a place of its own, nearer to it and inside.
+static bool may_step_to(const extension *e, int32_t node, int32_t attractor, double p[3]) {
+    double n[3];
+    double distance = direction_to(e, node, attractor, n);
+    step_from(e, node, n, p);
+    return e->def->length < 2 * distance && !has_child_at(e, node, p) && stays_inside(e, node, p);
+}
+
+// The place toward the first-ranked attractor that a step can be made to.
+static bool step_to_one(const extension *e, double p[3]) {
+    bool found = false;
+    uint64_t least = 0;
+    for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
+        double q[3];
+        uint64_t rank = vn_hash(e->a->seed, e->a->id.data[pair->value], (uint64_t)e->node, 0);
+        if ((!found || rank < least) && may_step_to(e, e->node, pair->value, q)) {
+            found = true;
+            least = rank;
+            memcpy(p, q, sizeof q);
+        }
+    }
+    return found;
+}
+
+typedef struct sight {
+    const extension *e;
+    int32_t attractor;
+    double at[3];
+} sight;
+
+static bool sees_and_may_grow(int32_t node, const void *payload) {
+    const sight *s = payload;
+    double q[3], p[3];
+    vn_network_position(s->e->network, node, q);
+    return vn_domain_sees(s->e->def->domain, q, s->at) && may_step_to(s->e, node, s->attractor, p);
+}
+
+static void remember_sight(vn_attractors *a, const vn_domain *domain) {
+    if (a->sight != domain) {
+        vn_domain_release(a->sight);
+        a->sight = vn_domain_retain(domain);
+    }
+}
+
+// The border is between this attractor and its node: it turns to the nearest node that sees it, which grows at once.
+static vn_status turn_to_another(const extension *e, int32_t attractor) {
+    vn_attractors *a = e->a;
+    sight s = {e, attractor, {0, 0, 0}};
+    vn_points points = vn_attractors_points(a);
+    vn_points nodes = vn_network_points(e->network);
+    const vn_point_grid *grid;
+    vn_points_get(&points, attractor, s.at);
+    VN_TRY(vn_network_grid(e->network, 0, &grid));
+    vn_nearest query = {.reach2 = a->reach2, .seed = a->seed, .id = a->id.data[attractor],
+                        .accept = sees_and_may_grow, .payload = &s};
+    vn_point_grid_nearest(grid, &nodes, s.at, &query);
+    if (query.point < 0) {
+        a->retired.hidden++;
+        vn_attractors_remove(a, attractor);
+        return VN_OK;
+    }
+    remember_sight(a, e->def->domain);
+    a->idle.data[attractor] |= VN_HIDDEN;
+    a->node.data[attractor] = query.point;
+    a->near2.data[attractor] = query.reach2;
+    vn_reach_tree_raise(&a->tree, s.at, query.reach2);
+    double n[3], p[3];
+    direction_to(e, query.point, attractor, n);
+    step_from(e, query.point, n, p);
+    return vn_network_add(e->network, query.point, p, NULL);
+}
+
+// An attractor that no vein comes nearer to, however often it pulls, is let go, or some run would never end.
+static void lose_patience(const extension *e) {
+    vn_attractors *a = e->a;
+    for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
+        int32_t i = pair->value;
+        double distance = sqrt(a->near2.data[i]);
+        if (vn_is_gone(a, i)) {
+            continue;
+        }
+        if (distance < (double)a->best.data[i] - 1e-3 * e->def->length) {
+            a->best.data[i] = (float)distance;
+            a->idle.data[i] &= VN_HIDDEN;
+        } else if ((++a->idle.data[i] & VN_IDLE) > PATIENCE) {
+            a->retired.circled++;
+            vn_attractors_remove(a, i);
+        }
+    }
+}
+
+static vn_status grow_node(const extension *e) {
+    double n[3], p[3];
+    bool has_mean = mean_direction(e, n);
+    step_from(e, e->node, n, p);
+    bool free = has_mean && !has_child_at(e, e->node, p);
+    bool inside = !free || stays_inside(e, e->node, p);
+    if ((free && inside) || step_to_one(e, p)) {
+        VN_TRY(vn_network_add(e->network, e->node, p, NULL));
+    } else if (!inside || (e->def->domain != NULL && !has_mean)) {
+        for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
+            VN_TRY(turn_to_another(e, pair->value));
+        }
+    }
+    lose_patience(e);
+    return VN_OK;
+}
+
+static vn_status group_by_node(vn_influence *influence) {
+    int32_t count = influence->node.count;
+    VN_TRY(vn_array_reserve(&influence->by_node, count));
+    for (int32_t k = 0; k < count; k++) {
+        influence->by_node.data[k] = (vn_keyed){(uint64_t)influence->node.data[k], influence->attractor.data[k]};
+    }
+    influence->by_node.count = count;
+    return vn_sort_keyed(&influence->by_node, &influence->scratch);
+}
+
+static vn_status grow_nodes(extension *e) {
+    const vn_keyed *pairs = e->influence->by_node.data;
+    int32_t count = e->influence->by_node.count;
+    for (int32_t begin = 0, end; begin < count; begin = end) {
+        end = begin + 1;
+        while (end < count && pairs[end].key == pairs[begin].key) {
+            end++;
+        }
+        e->node = (int32_t)pairs[begin].key;
+        e->begin = pairs + begin;
+        e->end = pairs + end;
+        VN_TRY(grow_node(e));
+    }
+    return VN_OK;
+}
+
+static vn_status check_extend(const vn_network *network, const vn_influence *influence, const vn_extend_def *def) {
+    VN_TRY(vn_check_def(&vn_extend_schema, def));
+    if (influence->network != network || !vn_influence_current(influence)) {
+        return vn_fail(VN_INVALID, "extend: the influence is out of date, or of another network: call influence() "
+                                   "again after anything has changed");
+    }
+    if (def->domain != NULL && vn_domain_dim(def->domain) != network->dim) {
+        return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d", vn_domain_dim(def->domain),
+                       network->dim);
+    }
+    return VN_OK;
+}
+
+vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def, int32_t *added,
+                    int32_t *first) {
+    *added = 0;
+    *first = network->x.count;
+    VN_TRY(check_extend(network, influence, def));
+    extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
+    network->step++;
+    VN_TRY(group_by_node(influence));
+    vn_status status = grow_nodes(&e);
+    *added = network->x.count - *first;
+    return status;
+}

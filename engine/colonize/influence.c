@@ -1,0 +1,119 @@
+#include "colonize/attractors.h"
+
+static const vn_influence_def influence_default = {0};
+
+static const vn_field influence_fields[] = {
+    {"mode", VN_CHOICE, 0, offsetof(vn_influence_def, mode), 0, 0, "", "nearest",
+     "which nodes an attractor influences: the nearest one (open venation, Runions §3)"},
+    {"within", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_influence_def, within), 0, VN_HUGE, "length", NULL,
+     "attraction distance: nodes farther away are not influenced; left out: any distance"},
+};
+const vn_schema vn_influence_schema = {
+    "influence", "Which attractors influence which nodes", influence_fields, 2, sizeof(vn_influence_def),
+    &influence_default};
+
+vn_influence_def vn_influence_def_default(void) {
+    return influence_default;
+}
+
+// Merge what became active since into the ascending list, dropping what is gone.
+static vn_status renew_active(vn_attractors *a) {
+    VN_TRY(vn_sort_keyed(&a->activated, &a->scratch));
+    int32_t kept = 0;
+    for (int32_t k = 0; k < a->active.count; k++) {
+        int32_t i = a->active.data[k];
+        if (a->node.data[i] >= 0) {
+            a->active.data[kept++] = i;
+        }
+    }
+    a->active.count = kept;
+    VN_TRY(vn_array_reserve(&a->active, kept + a->activated.count));
+    int32_t from = kept - 1;
+    int32_t to = kept + a->activated.count - 1;
+    for (int32_t k = a->activated.count - 1; k >= 0; k--) {
+        int32_t i = a->activated.data[k].value;
+        for (; from >= 0 && a->active.data[from] > i; from--) {
+            a->active.data[to--] = a->active.data[from];
+        }
+        a->active.data[to--] = i;
+    }
+    a->active.count = kept + a->activated.count;
+    a->activated.count = 0;
+    return VN_OK;
+}
+
+static vn_status list_pairs(vn_influence *influence, double within) {
+    const vn_attractors *a = influence->attractors;
+    double within2 = within * within;
+    VN_TRY(vn_array_reserve(&influence->attractor, a->active.count));
+    VN_TRY(vn_array_reserve(&influence->node, a->active.count));
+    int32_t count = 0;
+    for (int32_t k = 0; k < a->active.count; k++) {
+        int32_t i = a->active.data[k];
+        if (a->node.data[i] >= 0 && a->near2.data[i] <= within2) {
+            influence->attractor.data[count] = i;
+            influence->node.data[count++] = a->node.data[i];
+        }
+    }
+    influence->attractor.count = influence->node.count = count;
+    return VN_OK;
+}
+
+static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *network, double within) {
+    influence->attractor.count = influence->node.count = 0;
+    influence->attractors = a;
+    influence->network = network;
+    VN_TRY(vn_poll());
+    VN_TRY(vn_attractors_tidy(a));
+    VN_TRY(vn_attractors_sync(a, network, within));
+    VN_TRY(renew_active(a));
+    VN_TRY(list_pairs(influence, within));
+    influence->attractors_version = a->version;
+    influence->network_version = network->version;
+    return VN_OK;
+}
+
+vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
+                            const vn_influence_def *def) {
+    VN_TRY(vn_check_def(&vn_influence_schema, def));
+    bool made = *out == NULL;
+    if (made) {
+        *out = VN_NEW(vn_influence);
+        if (*out == NULL) {
+            return vn_fail_memory("an influence", sizeof **out);
+        }
+    }
+    vn_status status = find(*out, attractors, network, def->within > 0 ? def->within : INFINITY);
+    if (status != VN_OK && made) {
+        vn_influence_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+void vn_influence_destroy(vn_influence *influence) {
+    if (influence != NULL) {
+        vn_array_free(&influence->attractor);
+        vn_array_free(&influence->node);
+        vn_array_free(&influence->by_node);
+        vn_array_free(&influence->scratch);
+        VN_DELETE(influence);
+    }
+}
+
+int32_t vn_influence_count(const vn_influence *influence) {
+    return influence->attractor.count;
+}
+
+int32_t vn_influence_attractor(const vn_influence *influence, int32_t pair) {
+    return vn_attractors_public(influence->attractors, influence->attractor.data[pair]);
+}
+
+int32_t vn_influence_node(const vn_influence *influence, int32_t pair) {
+    return influence->node.data[pair];
+}
+
+bool vn_influence_current(const vn_influence *influence) {
+    return influence->attractors_version == influence->attractors->version &&
+           influence->network_version == influence->network->version;
+}

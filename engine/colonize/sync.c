@@ -1,0 +1,193 @@
+// The remembered nearest nodes. DESIGN: a new node changes only attractors that it is nearer to than what they remember,
+// and a new attractor has to look once.
+
+#include "colonize/attractors.h"
+
+#include "base/parallel.h"
+
+static void forget(vn_attractors *a, const vn_network *network, double reach2) {
+    for (int32_t i = 0; i < a->x.count; i++) {
+        if (!vn_is_gone(a, i)) {
+            a->near2.data[i] = reach2;
+            a->node.data[i] = -1;
+            a->idle.data[i] = 0;
+            a->best.data[i] = INFINITY;
+        }
+    }
+    a->network_serial = network->serial;
+    a->network_moved = network->moved;
+    a->reach2 = reach2;
+    a->nodes_seen = 0;
+    a->attractors_seen = 0;
+    a->tree_count = 0;
+    a->tree.levels = 0;
+    a->active.count = 0;
+    a->activated.count = 0;
+    a->fresh.count = 0;
+    a->fresh_all = true;
+}
+
+static vn_status note_fresh(vn_attractors *a, int32_t i, double d2) {
+    if (a->fresh_all) {
+        return VN_OK;
+    }
+    if (a->fresh.count > 2 * a->x.count + 1024) {
+        a->fresh.count = 0;
+        a->fresh_all = true;
+        return VN_OK;
+    }
+    return vn_array_push(&a->fresh, ((vn_reach_hit){i, d2}));
+}
+
+static bool is_hidden_from(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node) {
+    double p[3], q[3];
+    vn_points points = vn_attractors_points(a);
+    if (!(a->idle.data[i] & VN_HIDDEN)) {
+        return false;
+    }
+    vn_points_get(&points, i, p);
+    vn_network_position(network, node, q);
+    return !vn_domain_sees(a->sight, q, p);
+}
+
+// Node @p node is at squared distance @p d2 <= near2 of attractor @p i.
+static vn_status show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2) {
+    int32_t present = a->node.data[i];
+    bool tie = d2 == a->near2.data[i] && present >= 0;
+    if (tie && !vn_ranks_before(a->seed, a->id.data[i], node, present)) {
+        return VN_OK;
+    }
+    VN_TRY(note_fresh(a, i, d2));
+    if (is_hidden_from(a, network, i, node)) {
+        return VN_OK; // it may be reached, and consumed, but does not draw the node
+    }
+    if (present < 0) {
+        VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
+    }
+    a->node.data[i] = node;
+    a->near2.data[i] = d2;
+    return VN_OK;
+}
+
+static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t node, int32_t seen) {
+    double p[3];
+    vn_points points = vn_attractors_points(a);
+    vn_network_position(network, node, p);
+    a->hits.count = 0;
+    VN_TRY(vn_reach_tree_query(&a->tree, &points, a->near2.data, p, &a->hits));
+    for (int32_t i = a->tree_count; i < seen; i++) {
+        double d2 = vn_points_distance2(&points, i, p);
+        if (d2 <= a->near2.data[i]) {
+            VN_TRY(vn_array_push(&a->hits, ((vn_reach_hit){i, d2})));
+        }
+    }
+    for (int32_t h = 0; h < a->hits.count; h++) {
+        if (a->hits.data[h].point < seen) {
+            VN_TRY(show(a, network, a->hits.data[h].point, node, a->hits.data[h].distance2));
+        }
+    }
+    return VN_OK;
+}
+
+// The tree may lack a tail of newcomers, which is gone through one by one; when that is long it is built anew.
+static vn_status renew_tree(vn_attractors *a) {
+    int32_t tail = a->x.count - a->tree_count;
+    if (a->tree.levels > 0 && tail <= 64 + a->tree_count / 16) {
+        return VN_OK;
+    }
+    vn_points points = vn_attractors_points(a);
+    VN_TRY(vn_reach_tree_build(&a->tree, a->dim, &points, a->near2.data, a->x.count));
+    a->tree_count = a->x.count;
+    return VN_OK;
+}
+
+static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {
+    if (begin < network->x.count && seen > 0) {
+        VN_TRY(renew_tree(a));
+    }
+    for (int32_t node = begin; seen > 0 && node < network->x.count; node++) {
+        VN_TRY(show_node(a, network, node, seen));
+        if (node % 4096 == 4095) {
+            VN_TRY(vn_poll());
+        }
+    }
+    return VN_OK;
+}
+
+typedef struct look_around {
+    vn_attractors *a;
+    const vn_network *network;
+    const vn_point_grid *grid;
+    int32_t first;
+    vn_nearest *found;
+} look_around;
+
+static void look_range(int64_t begin, int64_t end, void *payload) {
+    const look_around *job = payload;
+    vn_points nodes = vn_network_points(job->network);
+    vn_points points = vn_attractors_points(job->a);
+    for (int64_t k = begin; k < end; k++) {
+        int32_t i = job->first + (int32_t)k;
+        double p[3];
+        vn_points_get(&points, i, p);
+        job->found[k] = (vn_nearest){.reach2 = job->a->reach2, .seed = job->a->seed, .id = job->a->id.data[i]};
+        vn_point_grid_nearest(job->grid, &nodes, p, &job->found[k]);
+    }
+}
+
+enum { LOOK_AT_ONCE = 1 << 15 };
+
+// Newcomers look for their nearest node in the network's grid.
+static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t begin) {
+    const vn_point_grid *grid;
+    VN_ARRAY(vn_nearest) found = {0};
+    VN_TRY(vn_network_grid(network, 0, &grid));
+    vn_status status = VN_OK;
+    for (int32_t first = begin; status == VN_OK && first < a->x.count; first += LOOK_AT_ONCE) {
+        int32_t count = a->x.count - first < LOOK_AT_ONCE ? a->x.count - first : LOOK_AT_ONCE;
+        status = vn_array_reserve(&found, count);
+        if (status == VN_OK) {
+            look_around job = {a, network, grid, first, found.data};
+            vn_parallel_for(count, 256, look_range, &job);
+        }
+        for (int32_t k = 0; status == VN_OK && k < count; k++) {
+            if (!vn_is_gone(a, first + k) && found.data[k].point >= 0) {
+                status = show(a, network, first + k, found.data[k].point, found.data[k].reach2);
+            }
+        }
+        status = status == VN_OK ? vn_poll() : status;
+    }
+    vn_array_free(&found);
+    return status;
+}
+
+vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach) {
+    double reach2 = reach * reach;
+    if (a->dim != network->dim) {
+        return vn_fail(VN_INVALID, "attractors of %d dimensions cannot influence a network of %d", a->dim,
+                       network->dim);
+    }
+    bool same = a->network_serial == network->serial && a->network_moved == network->moved;
+    if (!same || reach2 > a->reach2) {
+        forget(a, network, reach2);
+    }
+    int32_t known = a->attractors_seen;
+    for (int32_t i = known; i < a->x.count; i++) {
+        a->near2.data[i] = vn_is_gone(a, i) ? -1 : a->reach2;
+    }
+    int32_t newcomers = a->x.count - known;
+    if (newcomers > network->x.count && a->nodes_seen == 0) {
+        known = a->x.count; // many attractors and few nodes: show these nodes to all
+        newcomers = 0;
+    }
+    // Half a sync that memory or time cut short would leave nodes unseen: then the next one starts over.
+    a->network_serial = 0;
+    VN_TRY(show_nodes(a, network, a->nodes_seen, known));
+    if (newcomers > 0) {
+        VN_TRY(look_for_nodes(a, network, known));
+    }
+    a->network_serial = network->serial;
+    a->nodes_seen = network->x.count;
+    a->attractors_seen = a->x.count;
+    return VN_OK;
+}

@@ -1,0 +1,299 @@
+// Dart throwing (Runions et al. 2005, section 3.3; READINGS R1 and R2).
+
+#include "colonize/attractors.h"
+
+#include "base/parallel.h"
+#include "domain/domain.h"
+
+#include <stdlib.h>
+
+static const vn_throw_def throw_default = {0};
+
+static const vn_field throw_fields[] = {
+    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, domain), 0, 0, "", "domain", "where the darts fall"},
+    {"count", VN_I32, VN_OPTIONAL, offsetof(vn_throw_def, count), 0, INT32_MAX, "darts", NULL,
+     "how many darts; or give `density`"},
+    {"density", VN_F64, VN_OPTIONAL, offsetof(vn_throw_def, density), 0, VN_HUGE, "darts/length²", NULL,
+     "darts per area (volume) of the domain; a fraction of a dart is carried to the next call"},
+    {"spacing", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, spacing), 0, 1e150, "length", NULL,
+     "birth distance b_s: a dart this close to an attractor is refused; left out: none is"},
+    {"clearance", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, clearance), 0, 1e150, "length", NULL,
+     "birth distance b_v: a dart this close to a node of `network` is refused; left out: none is"},
+    {"network", VN_OBJECT, 0, offsetof(vn_throw_def, network), 0, 0, "", "network", "what `clearance` keeps clear of"},
+    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng", "the random numbers: venule.rng(seed)"},
+};
+const vn_schema vn_throw_schema = {"throw", "Throw darts at a domain; those that stick become attractors",
+                                   throw_fields, 7, sizeof(vn_throw_def), &throw_default};
+
+vn_throw_def vn_throw_def_default(void) {
+    return throw_default;
+}
+
+enum { DARTS_AT_ONCE = 1 << 16 };
+
+/// Darts that fly in parallel: each from random numbers of its own.
+typedef struct volley {
+    const vn_domain *domain;
+    vn_rng rng;
+    int64_t first; ///< the number of the first dart of this volley
+    double (*at)[3];
+    bool *missed;
+} volley;
+
+static vn_rng dart_rng(const volley *v, int64_t dart) {
+    return (vn_rng){.seed = v->rng.seed, .stream = vn_hash(v->rng.seed, v->rng.stream, (uint64_t)dart, 2)};
+}
+
+static void fly(int64_t begin, int64_t end, void *payload) {
+    const volley *v = payload;
+    for (int64_t k = begin; k < end; k++) {
+        vn_rng rng = dart_rng(v, v->first + k);
+        v->missed[k] = vn_domain_dart(v->domain, &rng, v->at[k]) != VN_OK;
+    }
+}
+
+static bool is_present(int32_t i, const void *payload) {
+    return !vn_is_gone(payload, i);
+}
+
+// "Farther" is strict: a dart at exactly the birth distance is refused (READINGS R1).
+static double beyond(double distance) {
+    return nextafter(distance, INFINITY);
+}
+
+static bool is_clear(const vn_network *network, const vn_point_grid *grid, double clearance, const double p[3]) {
+    if (network == NULL || clearance <= 0) {
+        return true;
+    }
+    vn_points nodes = vn_network_points(network);
+    return vn_point_grid_any_within(grid, &nodes, p, beyond(clearance), NULL, NULL) < 0;
+}
+
+static vn_status stick(vn_attractors *a, double spacing, const double p[3], int32_t *accepted) {
+    if (spacing > 0) {
+        VN_TRY(vn_attractors_grid(a, spacing));
+        vn_points points = vn_attractors_points(a);
+        if (vn_point_grid_any_within(&a->grid, &points, p, beyond(spacing), is_present, a) >= 0) {
+            return VN_OK;
+        }
+    }
+    VN_TRY(vn_attractors_add(a, p));
+    ++*accepted;
+    return VN_OK;
+}
+
+static vn_status network_grid(vn_network *network, double clearance, const vn_point_grid **grid) {
+    *grid = NULL;
+    return network != NULL && clearance > 0 ? vn_network_grid(network, clearance, grid) : VN_OK;
+}
+
+static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count, int32_t *accepted) {
+    const vn_point_grid *grid;
+    VN_TRY(network_grid(def->network, def->clearance, &grid));
+    for (int32_t k = 0; k < count; k++) {
+        if (v->missed[k]) {
+            vn_rng rng = dart_rng(v, v->first + k); // once more, for its message
+            VN_TRY(vn_domain_dart(v->domain, &rng, v->at[k]));
+        }
+        if (is_clear(def->network, grid, def->clearance, v->at[k])) {
+            VN_TRY(stick(a, def->spacing, v->at[k], accepted));
+        }
+    }
+    return vn_poll();
+}
+
+static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t darts, int32_t *accepted) {
+    int64_t room = darts < DARTS_AT_ONCE ? darts : DARTS_AT_ONCE;
+    volley v = {.domain = def->domain, .rng = vn_rng_fork(def->rng)};
+    v.at = vn_resize(NULL, 0, (size_t)room * sizeof *v.at);
+    v.missed = vn_resize(NULL, 0, (size_t)room);
+    vn_status status = VN_OK;
+    if (room > 0 && (v.at == NULL || v.missed == NULL)) {
+        status = vn_fail_memory("darts", (size_t)room * sizeof *v.at);
+    }
+    for (; status == VN_OK && v.first < darts; v.first += DARTS_AT_ONCE) {
+        int32_t count = (int32_t)(darts - v.first < DARTS_AT_ONCE ? darts - v.first : DARTS_AT_ONCE);
+        vn_parallel_for(count, 1024, fly, &v);
+        status = land(a, def, &v, count, accepted);
+    }
+    vn_resize(v.at, v.at != NULL ? (size_t)room * sizeof *v.at : 0, 0);
+    vn_resize(v.missed, v.missed != NULL ? (size_t)room : 0, 0);
+    return status;
+}
+
+// A large throw is laid along a space-filling curve, so that what is near in the plane is near in memory: a step then
+// takes half the time. Its darts have no history yet that their order could show.
+static vn_status lay_along_curve(vn_attractors *a, int32_t first, const vn_box *bounds) {
+    int32_t count = a->x.count - first;
+    vn_keyed_array keys = {0}, scratch = {0};
+    VN_ARRAY(double) old = {0};
+    double size = 0;
+    for (int k = 0; k < a->dim; k++) {
+        size = fmax(size, bounds->max[k] - bounds->min[k]);
+    }
+    vn_status status = vn_array_reserve(&keys, count);
+    for (int32_t k = 0; status == VN_OK && k < count; k++) {
+        double p[3];
+        vn_points points = vn_attractors_points(a);
+        vn_points_get(&points, first + k, p);
+        keys.data[keys.count++] = (vn_keyed){vn_morton(p, a->dim, bounds->min, size), first + k};
+    }
+    status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
+    status = status == VN_OK ? vn_array_reserve(&old, count) : status;
+    double *columns[3] = {a->x.data, a->y.data, a->z.data};
+    for (int c = 0; status == VN_OK && c < a->dim; c++) {
+        memcpy(old.data, columns[c] + first, (size_t)count * sizeof *old.data);
+        for (int32_t k = 0; k < count; k++) {
+            columns[c][first + k] = old.data[keys.data[k].value - first];
+        }
+    }
+    vn_point_grid_free(&a->grid);
+    a->grid.cell = 0;
+    vn_array_free(&old);
+    vn_array_free(&keys);
+    vn_array_free(&scratch);
+    return status;
+}
+
+static vn_status count_darts(vn_attractors *a, const vn_throw_def *def, double measure, int64_t *darts) {
+    *darts = def->count;
+    if (def->density > 0) {
+        double exact = def->density * measure + a->carry;
+        if (!(exact < INT32_MAX)) {
+            return vn_fail(VN_LIMIT, "throw.density = %g makes %g darts over an area of %g: more than %d; lower it",
+                           def->density, exact, measure, INT32_MAX);
+        }
+        *darts = (int64_t)exact;
+        a->carry = exact - (double)*darts;
+    }
+    return VN_OK;
+}
+
+static int by_falling_arrival(const void *left, const void *right) {
+    const vn_dormant *a = left, *b = right;
+    if (a->arrival != b->arrival) {
+        return a->arrival < b->arrival ? 1 : -1;
+    }
+    int by_x = (a->p[0] > b->p[0]) - (a->p[0] < b->p[0]);
+    return by_x != 0 ? by_x : (a->p[1] > b->p[1]) - (a->p[1] < b->p[1]);
+}
+
+static vn_status keep_dormant(vn_attractors *a, const vn_attractors *sown) {
+    const vn_margin *margin = a->margin->kind->margin;
+    vn_points points = vn_attractors_points(sown);
+    a->dormant.count = 0;
+    for (int32_t i = 0; i < sown->x.count; i++) {
+        vn_dormant dormant;
+        vn_points_get(&points, i, dormant.p);
+        dormant.arrival = margin->arrival(a->margin, dormant.p);
+        if (isfinite(dormant.arrival)) {
+            VN_TRY(vn_array_push(&a->dormant, dormant));
+        }
+        if (i % 4096 == 4095) {
+            VN_TRY(vn_poll());
+        }
+    }
+    if (a->dormant.count > 0) {
+        qsort(a->dormant.data, (size_t)a->dormant.count, sizeof *a->dormant.data, by_falling_arrival);
+    }
+    return VN_OK;
+}
+
+// The square round the grown blade.
+static vn_status square_of(vn_domain **out, const vn_box *bounds) {
+    vn_box_def def = vn_box_def_default();
+    double side = fmax(bounds->max[0] - bounds->min[0], bounds->max[1] - bounds->min[1]);
+    for (int k = 0; k < 2; k++) {
+        double middle = 0.5 * (bounds->min[k] + bounds->max[k]);
+        def.min[k] = middle - 0.5 * side;
+        def.max[k] = middle + 0.5 * side;
+    }
+    return vn_domain_box(out, &def);
+}
+
+// All darts of the grown shape's square at once, accepted among themselves (READINGS R2).
+static vn_status sow(vn_attractors *a, const vn_throw_def *def) {
+    vn_box bounds;
+    double grown;
+    def->domain->kind->margin->grown(def->domain, &bounds, &grown);
+    vn_throw_def all = {.spacing = def->spacing, .rng = def->rng};
+    vn_attractors_def set = {.dim = 2};
+    vn_attractors *sown = NULL;
+    vn_status status = square_of(&all.domain, &bounds);
+    status = status == VN_OK ? vn_attractors_create(&sown, &set) : status;
+    if (status == VN_OK) {
+        double square = vn_domain_measure(all.domain);
+        all.density = def->density > 0 ? def->density : def->count / grown;
+        int64_t darts;
+        int32_t accepted = 0;
+        status = count_darts(sown, &all, square, &darts);
+        status = status == VN_OK ? throw_darts(sown, &all, darts, &accepted) : status;
+    }
+    if (status == VN_OK) {
+        vn_domain_release(a->margin);
+        a->margin = vn_domain_retain(def->domain);
+        a->margin_clearance = def->clearance;
+        status = keep_dormant(a, sown);
+    }
+    vn_attractors_destroy(sown);
+    vn_domain_release(all.domain);
+    return status;
+}
+
+vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
+    *released = 0;
+    if (a->margin == NULL) {
+        return VN_OK;
+    }
+    const vn_point_grid *grid;
+    double length = a->margin->kind->margin->length(a->margin);
+    VN_TRY(network_grid(network, a->margin_clearance, &grid));
+    while (a->dormant.count > 0 && a->dormant.data[a->dormant.count - 1].arrival <= length) {
+        const vn_dormant *next = &a->dormant.data[a->dormant.count - 1];
+        if (is_clear(network, grid, a->margin_clearance, next->p)) {
+            VN_TRY(vn_attractors_add(a, next->p));
+            ++*released;
+        }
+        a->dormant.count--;
+    }
+    return VN_OK;
+}
+
+static vn_status check_throw(const vn_attractors *a, const vn_throw_def *def) {
+    VN_TRY(vn_check_def(&vn_throw_schema, def));
+    if ((def->count > 0) == (def->density > 0)) {
+        return vn_fail(VN_INVALID, "throw: give how many darts either as `count` or as `density`, above 0");
+    }
+    if (vn_domain_dim(def->domain) != a->dim) {
+        return vn_fail(VN_INVALID, "throw.domain has %d dimensions, the attractors %d", vn_domain_dim(def->domain),
+                       a->dim);
+    }
+    if (def->clearance > 0 && def->network == NULL) {
+        return vn_fail(VN_INVALID, "throw.clearance needs throw.network: the nodes to keep clear of");
+    }
+    if (def->network != NULL && vn_network_dim(def->network) != a->dim) {
+        return vn_fail(VN_INVALID, "throw.network has %d dimensions, the attractors %d", vn_network_dim(def->network),
+                       a->dim);
+    }
+    return VN_OK;
+}
+
+vn_status vn_throw(vn_attractors *a, const vn_throw_def *def, int32_t *accepted) {
+    *accepted = 0;
+    VN_TRY(check_throw(a, def));
+    if (def->domain->kind->margin != NULL) {
+        if (a->margin != def->domain) {
+            VN_TRY(sow(a, def));
+        }
+        return vn_release(a, def->network, accepted);
+    }
+    int64_t darts;
+    int32_t first = a->x.count;
+    VN_TRY(count_darts(a, def, vn_domain_measure(def->domain), &darts));
+    VN_TRY(throw_darts(a, def, darts, accepted));
+    if (*accepted >= 1024) {
+        vn_box bounds = vn_domain_bounds(def->domain);
+        VN_TRY(lay_along_curve(a, first, &bounds));
+    }
+    return VN_OK;
+}

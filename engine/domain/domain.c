@@ -1,0 +1,125 @@
+#include "domain/domain.h"
+
+#include "space/points.h"
+
+void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim) {
+    vn_domain *domain = vn_new_block(size);
+    if (domain != NULL) {
+        domain->kind = kind;
+        domain->size = size;
+        domain->dim = dim;
+        atomic_init(&domain->references, 1);
+    }
+    return domain;
+}
+
+vn_domain *vn_domain_retain(const vn_domain *domain) {
+    vn_domain *shared = (vn_domain *)domain; // what is counted is not part of its value
+    atomic_fetch_add(&shared->references, 1);
+    return shared;
+}
+
+void vn_domain_release(vn_domain *domain) {
+    if (domain != NULL && atomic_fetch_sub(&domain->references, 1) == 1) {
+        if (domain->kind->destroy != NULL) {
+            domain->kind->destroy(domain);
+        }
+        vn_resize(domain, domain->size, 0);
+    }
+}
+
+int vn_domain_dim(const vn_domain *domain) {
+    return domain->dim;
+}
+
+const char *vn_domain_unit(const vn_domain *domain) {
+    return domain->unit;
+}
+
+vn_box vn_domain_bounds(const vn_domain *domain) {
+    return domain->bounds;
+}
+
+double vn_domain_measure(const vn_domain *domain) {
+    return domain->measure;
+}
+
+bool vn_domain_contains(const vn_domain *domain, const double p[3]) {
+    return domain->kind->contains(domain, p);
+}
+
+double vn_domain_distance(const vn_domain *domain, const double p[3]) {
+    double q[3];
+    double d = domain->kind->closest(domain, p, q);
+    return domain->kind->contains(domain, p) ? d : -d;
+}
+
+void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]) {
+    domain->kind->closest(domain, p, q);
+}
+
+double vn_domain_value(const vn_domain *domain, const double p[3]) {
+    return domain->kind->contains(domain, p) ? 1 : 0;
+}
+
+// No border lies within the distance to it, so each stride of that length stays inside. Strides end below a
+// millionth of the bounds: something that thin is taken for closed.
+static bool march(const vn_domain *domain, const double a[3], const double b[3]) {
+    double length = sqrt(vn_distance2(a, b));
+    double least = 1e-6 * sqrt(vn_distance2(domain->bounds.min, domain->bounds.max));
+    double done = 0;
+    while (done < length) {
+        double p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = a[k] + done / length * (b[k] - a[k]);
+        }
+        double free = vn_domain_distance(domain, p);
+        if (free <= 0) {
+            return false;
+        }
+        done += fmax(free, least);
+    }
+    return true;
+}
+
+bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]) {
+    if (!domain->kind->contains(domain, a) || !domain->kind->contains(domain, b)) {
+        return false;
+    }
+    return domain->kind->sees != NULL ? domain->kind->sees(domain, a, b) : march(domain, a, b);
+}
+
+vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+    for (int tries = 0; tries < 1000000; tries++) {
+        p[2] = 0;
+        for (int k = 0; k < domain->dim; k++) {
+            p[k] = vn_rng_uniform(rng, domain->bounds.min[k], domain->bounds.max[k]);
+        }
+        if (domain->kind->contains(domain, p)) {
+            return VN_OK;
+        }
+    }
+    return vn_fail(VN_INFEASIBLE,
+                   "no dart of a million hit the %s: it fills less than a millionth of its bounds (is the outline "
+                   "right, and is it filled?)",
+                   domain->kind->name);
+}
+
+vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *out) {
+    if (domain->kind->outline == NULL) {
+        return vn_fail(VN_INVALID, "a %s has no flat outline to draw or to cut", domain->kind->name);
+    }
+    return domain->kind->outline(domain, sides, out);
+}
+
+vn_status vn_domain_measure_outline(vn_domain *domain) {
+    vn_rings rings = {0};
+    vn_status status = vn_domain_outline(domain, VN_FINE_SIDES, &rings);
+    domain->measure = 0;
+    for (int32_t i = 0; status == VN_OK && i < rings.ends.count; i++) {
+        domain->measure += vn_rings_area_of(&rings, i);
+    }
+    domain->bounds = vn_rings_bounds(&rings);
+    vn_rings_free(&rings);
+    return status;
+}

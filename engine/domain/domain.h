@@ -1,0 +1,61 @@
+/// A domain from inside: what each kind answers.
+#ifndef VN_DOMAIN_DOMAIN_H
+#define VN_DOMAIN_DOMAIN_H
+
+#include "base/schema.h"
+#include "domain/rings.h"
+
+#include <math.h>
+#include <stdatomic.h>
+
+extern const vn_schema vn_disk_schema;
+extern const vn_schema vn_box_schema;
+extern const vn_schema vn_profile_schema;
+
+/// What a domain with a moving margin answers besides.
+typedef struct vn_margin {
+    /// The length at which the margin passes @p p; INFINITY when it never does.
+    double (*arrival)(const vn_domain *domain, const double p[3]);
+    double (*length)(const vn_domain *domain);              ///< today's
+    void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
+} vn_margin;
+
+/// The functions of one kind of domain; those marked so may be NULL.
+typedef struct vn_domain_kind {
+    const char *name;
+    void (*destroy)(vn_domain *domain); ///< what the kind itself holds; may be NULL
+    bool (*contains)(const vn_domain *domain, const double p[3]);
+    /// The nearest border point q; returns its distance, 0 or more (in or out is contains()'s to say).
+    double (*closest)(const vn_domain *domain, const double p[3], double q[3]);
+    /// Whether ends that are inside see each other; NULL: march along by the distance to the border.
+    bool (*sees)(const vn_domain *domain, const double a[3], const double b[3]);
+    /// NULL where there are no flat outlines.
+    vn_status (*outline)(const vn_domain *domain, int32_t sides, vn_rings *out);
+    const vn_margin *margin; ///< NULL: it does not move
+} vn_domain_kind;
+
+/// The head of every kind's own structure.
+struct vn_domain {
+    const vn_domain_kind *kind;
+    size_t size; ///< of the whole structure
+    atomic_int references;
+    int dim;
+    bool polygonal; ///< its outline is exact
+    vn_box bounds;
+    double measure;
+    char unit[8];
+};
+
+/// A zeroed structure of @p size bytes whose head is set; one reference. NULL when there is no memory.
+void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim);
+
+/// Set `measure` to the area of the outline.
+vn_status vn_domain_measure_outline(vn_domain *domain);
+
+/// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of the radius.
+enum { VN_FINE_SIDES = 2048 };
+
+/// A polygon's points where it is one, else NULL.
+const vn_rings *vn_domain_rings(const vn_domain *domain);
+
+#endif

@@ -1,0 +1,182 @@
+// Marginal growth (Runions et al. 2005, section 3.3): the margin is scaled about the petiole, the tissue stays.
+
+#include "growth/growth.h"
+
+#include "space/points.h"
+#include "space/segment_grid.h"
+
+static const vn_growth_def marginal_default = {0};
+
+static const vn_field marginal_fields[] = {
+    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain", "the shape of the blade"},
+    {"origin", VN_POINT, VN_OPTIONAL, offsetof(vn_growth_def, origin), -VN_HUGE, VN_HUGE, "length", NULL,
+     "the petiole, about which the margin is scaled; left out: the lowest point of the outline"},
+    {"from", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, from), 0, 1e150, "length", NULL,
+     "the blade's length at first; left out: a twentieth of `to`"},
+    {"to", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, to), 0, 1e150, "length", NULL,
+     "its length when grown; left out: the domain's own length, its extent along y"},
+    {"step", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, step), 0, 1e150, "length", NULL,
+     "the length that each step adds; left out: a hundredth of to - from"},
+};
+const vn_schema vn_marginal_schema = {"marginal", "A blade of which only the margin moves (Runions §3.3)",
+                                      marginal_fields, 5, sizeof(vn_growth_def), &marginal_default};
+
+static const vn_growth *growth_of(const vn_domain *domain) {
+    return (const vn_growth *)domain;
+}
+
+static bool marginal_contains(const vn_domain *domain, const double p[3]) {
+    double q[3];
+    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, p, q);
+    return vn_domain_contains(growth_of(domain)->shape, q);
+}
+
+static double marginal_closest(const vn_domain *domain, const double p[3], double q[3]) {
+    const vn_growth *growth = growth_of(domain);
+    double scale = growth->length / growth->own_length;
+    double in_shape[3], border[3];
+    vn_growth_to_shape(growth, growth->length, p, in_shape);
+    double d = growth->shape->kind->closest(growth->shape, in_shape, border);
+    for (int k = 0; k < 3; k++) {
+        q[k] = k < domain->dim ? growth->origin[k] + (border[k] - growth->origin[k]) * scale : p[k];
+    }
+    return d * scale;
+}
+
+static bool marginal_sees(const vn_domain *domain, const double a[3], const double b[3]) {
+    double qa[3], qb[3];
+    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, a, qa);
+    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, b, qb);
+    return vn_domain_sees(growth_of(domain)->shape, qa, qb);
+}
+
+static vn_status marginal_outline(const vn_domain *domain, int32_t sides, vn_rings *out) {
+    const vn_growth *growth = growth_of(domain);
+    double scale = growth->length / growth->own_length;
+    vn_rings rings = {0};
+    vn_status status = vn_domain_outline(growth->shape, sides, &rings);
+    for (int32_t i = 0; i < rings.x.count; i++) {
+        rings.x.data[i] = growth->origin[0] + (rings.x.data[i] - growth->origin[0]) * scale;
+        rings.y.data[i] = growth->origin[1] + (rings.y.data[i] - growth->origin[1]) * scale;
+    }
+    status = status == VN_OK ? vn_rings_append(out, &rings) : status;
+    vn_rings_free(&rings);
+    return status;
+}
+
+// Star-shaped, so a point once inside stays inside: the moment is found by halving.
+static double marginal_arrival(const vn_domain *domain, const double p[3]) {
+    const vn_growth *growth = growth_of(domain);
+    double q[3];
+    double low = 0, high = growth->to;
+    vn_growth_to_shape(growth, high, p, q);
+    if (!vn_domain_contains(growth->shape, q)) {
+        return INFINITY;
+    }
+    for (int i = 0; i < 50; i++) {
+        double middle = 0.5 * (low + high);
+        vn_growth_to_shape(growth, middle, p, q);
+        if (vn_domain_contains(growth->shape, q)) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
+static double marginal_length(const vn_domain *domain) {
+    return growth_of(domain)->length;
+}
+
+static void marginal_grown(const vn_domain *domain, vn_box *bounds, double *measure) {
+    vn_growth grown = *growth_of(domain);
+    vn_growth_resize(&grown, grown.to);
+    *bounds = grown.base.bounds;
+    *measure = grown.base.measure;
+}
+
+static const vn_margin marginal_margin = {marginal_arrival, marginal_length, marginal_grown};
+
+static const vn_domain_kind marginal_kind = {.name = "blade",
+                                             .destroy = vn_growth_destroy,
+                                             .contains = marginal_contains,
+                                             .closest = marginal_closest,
+                                             .sees = marginal_sees,
+                                             .outline = marginal_outline,
+                                             .margin = &marginal_margin};
+
+static void lowest_point(const vn_rings *rings, double origin[3]) {
+    int32_t lowest = 0;
+    for (int32_t i = 1; i < rings->y.count; i++) {
+        if (rings->y.data[i] < rings->y.data[lowest]) {
+            lowest = i;
+        }
+    }
+    origin[0] = rings->x.data[lowest];
+    origin[1] = rings->y.data[lowest];
+    origin[2] = 0;
+}
+
+// Every edge must turn left as seen from the origin. An edge that turns back by less than a millionth of the blade is
+// the rounding of whoever drew it.
+static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
+    double tolerance = 1e-6 * growth->own_length * growth->own_length;
+    const double *o = growth->origin;
+    for (int32_t r = 0; r < rings->ends.count; r++) {
+        int32_t begin = vn_rings_begin(rings, r), end = rings->ends.data[r];
+        for (int32_t i = begin; i < end; i++) {
+            int32_t j = i + 1 < end ? i + 1 : begin;
+            const double *x = rings->x.data, *y = rings->y.data;
+            if (vn_turn(o[0], o[1], x[i], y[i], x[j], y[j]) < -tolerance) {
+                return vn_fail(VN_INVALID,
+                               "marginal: the blade is not star-shaped about its origin (%g, %g), so growth would erode "
+                               "it near (%g, %g): name another `origin`, one that sees the whole margin",
+                               o[0], o[1], x[i], y[i]);
+            }
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status place_origin(vn_growth *growth, const vn_growth_def *def) {
+    vn_rings rings = {0};
+    vn_status status = vn_domain_outline(growth->shape, 256, &rings);
+    if (status == VN_OK && !def->has_origin) {
+        lowest_point(&rings, growth->origin);
+    }
+    status = status == VN_OK ? check_star(growth, &rings) : status;
+    vn_rings_free(&rings);
+    return status;
+}
+
+static vn_status set_lengths(vn_growth *growth, const vn_growth_def *def) {
+    growth->to = def->to > 0 ? def->to : growth->own_length;
+    growth->from = def->from > 0 ? def->from : growth->to / 20;
+    growth->step = def->step > 0 ? def->step : (growth->to - growth->from) / 100;
+    if (growth->from > growth->to) {
+        return vn_fail(VN_INVALID, "marginal.from = %g must not be above marginal.to = %g: a margin cannot shrink",
+                       growth->from, growth->to);
+    }
+    if (growth->to > growth->from && (growth->to - growth->from) / growth->step > 1e8) {
+        return vn_fail(VN_INVALID, "marginal.step = %g takes more than 1e8 steps from %g to %g; give a longer one",
+                       growth->step, growth->from, growth->to);
+    }
+    return VN_OK;
+}
+
+vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def) {
+    *out = NULL;
+    VN_TRY(vn_check_def(&vn_marginal_schema, def));
+    vn_growth *growth;
+    VN_TRY(vn_growth_make(&growth, &marginal_kind, def));
+    vn_status status = set_lengths(growth, def);
+    status = status == VN_OK ? place_origin(growth, def) : status;
+    if (status != VN_OK) {
+        vn_growth_release(growth);
+        return status;
+    }
+    vn_growth_resize(growth, growth->from);
+    *out = growth;
+    return VN_OK;
+}

@@ -1,0 +1,93 @@
+/// The network from inside: columns, and what other engine folders may ask beyond the public header.
+#ifndef VN_NETWORK_NETWORK_H
+#define VN_NETWORK_NETWORK_H
+
+#include "base/schema.h"
+#include "space/point_grid.h"
+#include "venule/network.h"
+
+extern const vn_schema vn_network_schema;
+extern const vn_schema vn_murray_schema;
+
+typedef struct vn_join {
+    int32_t a, b;
+    double radius;
+} vn_join;
+
+/// One entry a node in every column that is in use: 44 bytes a node in 2D with Murray radii.
+struct vn_network {
+    int dim;
+    int32_t max_nodes;
+    char *unit;
+    VN_ARRAY(double) x;
+    VN_ARRAY(double) y;
+    VN_ARRAY(double) z; ///< 3D only
+    VN_ARRAY(int32_t) parent;
+    VN_ARRAY(int32_t) first_child; ///< the newest
+    VN_ARRAY(int32_t) next_child;
+    VN_ARRAY(int32_t) tree;
+    VN_ARRAY(int32_t) birth;
+    VN_ARRAY(int32_t) tips;    ///< Murray only: tips at or below the node, once `pending` was carried up
+    VN_ARRAY(int32_t) pending; ///< nodes that got one tip more, not yet told to those above
+    bool recount;              ///< so much is pending that one pass over everything is cheaper
+    VN_ARRAY(double) radius;   ///< given radii; empty when nobody gave any
+    VN_ARRAY(vn_join) joins;
+    VN_ARRAY(int32_t) orders;
+    uint64_t orders_version;
+    VN_ARRAY(int32_t) sequence; ///< parents first; empty while the indices themselves are such an order
+    bool murray;
+    vn_murray_def law;
+    int32_t roots;
+    int32_t step;
+    uint64_t serial;  ///< which network this is, among all of the process
+    uint64_t version; ///< changes with every change
+    uint64_t moved;   ///< changes when nodes that were there moved
+    vn_point_grid grid;
+    uint64_t grid_moved;
+};
+
+static inline vn_points vn_network_points(const vn_network *network) {
+    return (vn_points){network->x.data, network->y.data, network->dim == 3 ? network->z.data : NULL};
+}
+
+static inline void vn_network_position(const vn_network *network, int32_t node, double p[3]) {
+    vn_points points = vn_network_points(network);
+    vn_points_get(&points, node, p);
+}
+
+/// The nodes in a grid, brought up to date. @p reach says which distances will be asked for (0: unknown).
+vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid **grid);
+
+/// Carry pending tips up, so that `tips` holds everywhere.
+void vn_network_settle(const vn_network *network);
+
+/// Node @p k of the traversal order, parents first.
+static inline int32_t vn_network_nth(const vn_network *network, int32_t k) {
+    return network->sequence.count > 0 ? network->sequence.data[k] : k;
+}
+
+/// How many tips hang at or below each node; @p tips has room for all.
+void vn_network_count_tips(const vn_network *network, int32_t *tips);
+
+/// The law in force; false when there is none.
+bool vn_network_murray_get(const vn_network *network, vn_murray_def *def);
+/// Whether vn_network_radius() knows anything.
+bool vn_network_has_radii(const vn_network *network);
+
+/// Give every node's edge a radius of its own, in place of a law; @p radius has one entry a node, each 0 or more.
+vn_status vn_network_set_radii(vn_network *network, const double *radius);
+
+/// A whole network at once, for readers.
+typedef struct vn_network_columns {
+    int dim;
+    int32_t count;
+    const double *x, *y, *z;
+    const int32_t *parent; ///< -1 at roots; in any order
+    const double *radius;  ///< may be NULL
+    const int32_t *birth;  ///< may be NULL
+    const char *unit;
+} vn_network_columns;
+/// VN_INVALID for parents that do not exist or form a circle, and for numbers that are not finite.
+vn_status vn_network_from_columns(vn_network **out, const vn_network_columns *columns);
+
+#endif

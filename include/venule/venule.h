@@ -1,0 +1,13 @@
+/// @file venule.h
+/// All of Venule's engine.
+#ifndef VENULE_VENULE_H
+#define VENULE_VENULE_H
+
+#include "venule/attractors.h"
+#include "venule/base.h"
+#include "venule/domain.h"
+#include "venule/growth.h"
+#include "venule/network.h"
+#include "venule/output.h"
+
+#endif
