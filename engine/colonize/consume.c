@@ -73,10 +73,12 @@ vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def
     double distance2 = def->distance * def->distance;
     bool all = a->fresh_all || distance2 > a->consumed2;
     vn_status status = all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
-    if (status == VN_OK) {
-        a->fresh.count = 0;
-        a->fresh_all = false;
-        a->consumed2 = distance2;
+    if (status != VN_OK) {
+        *consumed = 0;
+        return status;
     }
-    return status;
+    a->fresh.count = 0;
+    a->fresh_all = false;
+    a->consumed2 = distance2;
+    return VN_OK;
 }

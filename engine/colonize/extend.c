@@ -177,8 +177,27 @@ static void lose_patience(const extension *e) {
     }
 }
 
+// A seed beyond the border would have every edge refused, and its attractors given up one by one.
+static vn_status check_seed(const extension *e) {
+    const vn_domain *domain = e->def->domain;
+    if (domain == NULL || e->network->parent.data[e->node] >= 0) {
+        return VN_OK;
+    }
+    double p[3];
+    vn_network_position(e->network, e->node, p);
+    double outside = -vn_domain_distance(domain, p);
+    vn_box bounds = vn_domain_bounds(domain);
+    if (outside > 1e-6 * sqrt(vn_distance2(bounds.min, bounds.max))) {
+        return vn_fail(VN_INVALID, "extend: the root at (%g, %g, %g) is outside the domain, by %g: place it inside or on the "
+                                   "border",
+                       p[0], p[1], p[2], outside);
+    }
+    return VN_OK;
+}
+
 static vn_status grow_node(const extension *e) {
     double n[3], p[3];
+    VN_TRY(check_seed(e));
     bool has_mean = mean_direction(e, n);
     step_from(e, e->node, n, p);
     bool free = has_mean && !has_child_at(e, e->node, p);
@@ -242,6 +261,6 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     network->step++;
     VN_TRY(group_by_node(influence));
     vn_status status = grow_nodes(&e);
-    *added = network->x.count - *first;
+    *added = status == VN_OK ? network->x.count - *first : 0;
     return status;
 }

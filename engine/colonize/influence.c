@@ -63,6 +63,7 @@ static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *net
     influence->attractor.count = influence->node.count = 0;
     influence->attractors = a;
     influence->network = network;
+    influence->attractors_version = 0; // no set has it: not current until all is found
     VN_TRY(vn_poll());
     VN_TRY(vn_attractors_tidy(a));
     VN_TRY(vn_attractors_sync(a, network, within));
@@ -106,7 +107,8 @@ int32_t vn_influence_count(const vn_influence *influence) {
 }
 
 int32_t vn_influence_attractor(const vn_influence *influence, int32_t pair) {
-    return vn_attractors_public(influence->attractors, influence->attractor.data[pair]);
+    bool current = vn_influence_current(influence);
+    return current ? vn_attractors_public(influence->attractors, influence->attractor.data[pair]) : -1;
 }
 
 int32_t vn_influence_node(const vn_influence *influence, int32_t pair) {

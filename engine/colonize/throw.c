@@ -278,8 +278,7 @@ static vn_status check_throw(const vn_attractors *a, const vn_throw_def *def) {
     return VN_OK;
 }
 
-vn_status vn_throw(vn_attractors *a, const vn_throw_def *def, int32_t *accepted) {
-    *accepted = 0;
+static vn_status throw_or_release(vn_attractors *a, const vn_throw_def *def, int32_t *accepted) {
     VN_TRY(check_throw(a, def));
     if (def->domain->kind->margin != NULL) {
         if (a->margin != def->domain) {
@@ -296,4 +295,11 @@ vn_status vn_throw(vn_attractors *a, const vn_throw_def *def, int32_t *accepted)
         VN_TRY(lay_along_curve(a, first, &bounds));
     }
     return VN_OK;
+}
+
+vn_status vn_throw(vn_attractors *a, const vn_throw_def *def, int32_t *accepted) {
+    *accepted = 0;
+    vn_status status = throw_or_release(a, def, accepted);
+    *accepted = status == VN_OK ? *accepted : 0;
+    return status;
 }

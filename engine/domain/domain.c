@@ -82,11 +82,30 @@ static bool march(const vn_domain *domain, const double a[3], const double b[3])
     return true;
 }
 
-bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]) {
-    if (!domain->kind->contains(domain, a) || !domain->kind->contains(domain, b)) {
+// An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of the bounds on.
+static bool pull_inside(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
+    memcpy(p, from, 3 * sizeof *p);
+    if (domain->kind->contains(domain, from)) {
+        return true;
+    }
+    double q[3];
+    double nudge = 1e-6 * sqrt(vn_distance2(domain->bounds.min, domain->bounds.max));
+    double length = sqrt(vn_distance2(from, to));
+    if (domain->kind->closest(domain, from, q) > nudge || length <= nudge) {
         return false;
     }
-    return domain->kind->sees != NULL ? domain->kind->sees(domain, a, b) : march(domain, a, b);
+    for (int k = 0; k < 3; k++) {
+        p[k] += nudge / length * (to[k] - from[k]);
+    }
+    return domain->kind->contains(domain, p);
+}
+
+bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]) {
+    double p[3], q[3];
+    if (!pull_inside(domain, a, b, p) || !pull_inside(domain, b, a, q)) {
+        return false;
+    }
+    return domain->kind->sees != NULL ? domain->kind->sees(domain, p, q) : march(domain, p, q);
 }
 
 vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {

@@ -36,6 +36,31 @@ void vn_growth_destroy(vn_domain *domain) {
     vn_domain_release(((vn_growth *)domain)->shape);
 }
 
+static void lowest_point(const vn_rings *rings, double origin[3]) {
+    int32_t lowest = 0;
+    for (int32_t i = 1; i < rings->y.count; i++) {
+        if (rings->y.data[i] < rings->y.data[lowest]) {
+            lowest = i;
+        }
+    }
+    origin[0] = rings->x.data[lowest];
+    origin[1] = rings->y.data[lowest];
+}
+
+static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
+    if (def->has_origin) {
+        memcpy(growth->origin, def->origin, sizeof growth->origin);
+        return VN_OK;
+    }
+    vn_rings rings = {0};
+    vn_status status = growth->base.dim == 2 ? vn_domain_outline(growth->shape, 256, &rings) : VN_OK;
+    if (rings.y.count > 0) {
+        lowest_point(&rings, growth->origin);
+    }
+    vn_rings_free(&rings);
+    return status;
+}
+
 vn_status vn_growth_make(vn_growth **out, const vn_domain_kind *kind, const vn_growth_def *def) {
     *out = NULL;
     vn_growth *growth = vn_domain_new(kind, sizeof *growth, def->domain->dim);
@@ -44,9 +69,13 @@ vn_status vn_growth_make(vn_growth **out, const vn_domain_kind *kind, const vn_g
     }
     growth->shape = vn_domain_retain(def->domain);
     growth->own_length = def->domain->bounds.max[1] - def->domain->bounds.min[1];
-    memcpy(growth->origin, def->origin, sizeof growth->origin);
     memcpy(growth->base.unit, def->domain->unit, sizeof growth->base.unit);
     growth->from = growth->to = growth->own_length;
+    vn_status status = find_origin(growth, def);
+    if (status != VN_OK) {
+        vn_growth_release(growth);
+        return status;
+    }
     vn_growth_resize(growth, growth->own_length);
     *out = growth;
     return VN_OK;
@@ -114,4 +143,8 @@ double vn_growth_final_length(const vn_growth *growth) {
 double vn_growth_unit(const vn_growth *growth) {
     (void)growth;
     return 1;
+}
+
+void vn_growth_origin(const vn_growth *growth, double p[3]) {
+    memcpy(p, growth->origin, sizeof growth->origin);
 }

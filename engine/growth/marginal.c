@@ -106,18 +106,6 @@ static const vn_domain_kind marginal_kind = {.name = "blade",
                                              .outline = marginal_outline,
                                              .margin = &marginal_margin};
 
-static void lowest_point(const vn_rings *rings, double origin[3]) {
-    int32_t lowest = 0;
-    for (int32_t i = 1; i < rings->y.count; i++) {
-        if (rings->y.data[i] < rings->y.data[lowest]) {
-            lowest = i;
-        }
-    }
-    origin[0] = rings->x.data[lowest];
-    origin[1] = rings->y.data[lowest];
-    origin[2] = 0;
-}
-
 // Every edge must turn left as seen from the origin. An edge that turns back by less than a millionth of the blade is
 // the rounding of whoever drew it.
 static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
@@ -139,12 +127,9 @@ static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
     return VN_OK;
 }
 
-static vn_status place_origin(vn_growth *growth, const vn_growth_def *def) {
+static vn_status check_outline(const vn_growth *growth) {
     vn_rings rings = {0};
     vn_status status = vn_domain_outline(growth->shape, 256, &rings);
-    if (status == VN_OK && !def->has_origin) {
-        lowest_point(&rings, growth->origin);
-    }
     status = status == VN_OK ? check_star(growth, &rings) : status;
     vn_rings_free(&rings);
     return status;
@@ -171,7 +156,7 @@ vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def) {
     vn_growth *growth;
     VN_TRY(vn_growth_make(&growth, &marginal_kind, def));
     vn_status status = set_lengths(growth, def);
-    status = status == VN_OK ? place_origin(growth, def) : status;
+    status = status == VN_OK ? check_outline(growth) : status;
     if (status != VN_OK) {
         vn_growth_release(growth);
         return status;

@@ -331,6 +331,7 @@ vn_status vn_network_set_radii(vn_network *network, const double *radius) {
     memcpy(network->radius.data, radius, (size_t)network->x.count * sizeof *radius);
     network->radius.count = network->x.count;
     network->murray = false;
+    network->recount = false;
     vn_array_free(&network->tips);
     vn_array_free(&network->pending);
     network->version++;

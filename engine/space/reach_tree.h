@@ -6,19 +6,20 @@
 #include "base/sort.h"
 #include "space/points.h"
 
-/// A run of points, or of smaller blocks, and the largest distance that any of them remembers.
-typedef struct vn_reach_block {
-    float low[3], high[3];
-    float reach2; ///< an upper bound; negative when nothing in it can answer any more
-} vn_reach_block;
+enum { VN_REACH_FAN = 8, VN_REACH_LEVELS = 12 };
 
-enum { VN_REACH_LEVELS = 12 };
+/// The boxes of eight runs of points, or of eight smaller packs, side by side so that they are tested together; and the
+/// largest squared distance that each run remembers: an upper bound, negative when nothing in it can answer any more.
+typedef struct vn_reach_pack {
+    float low[3][VN_REACH_FAN], high[3][VN_REACH_FAN];
+    float reach2[VN_REACH_FAN];
+} vn_reach_pack;
 
 typedef struct vn_reach_tree {
     int dim;
-    VN_ARRAY(int32_t) items; ///< the points along the curve
-    VN_ARRAY(vn_reach_block) blocks;
-    int32_t starts[VN_REACH_LEVELS + 1]; ///< level l has the blocks [starts[l], starts[l + 1]); level 0 holds items
+    VN_ARRAY(int32_t) items; ///< the points along the curve, in runs of eight
+    VN_ARRAY(vn_reach_pack) packs;
+    int32_t starts[VN_REACH_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1]); level 0 boxes runs
     int levels;
 } vn_reach_tree;
 

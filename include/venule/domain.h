@@ -75,7 +75,8 @@ VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);
 VN_API double vn_domain_distance(const vn_domain *domain, const double p[3]);
 /// The point @p q of the border that is nearest to @p p.
 VN_API void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]);
-/// Whether the straight line from @p a to @p b stays inside from end to end.
+/// Whether the straight line from @p a to @p b stays inside from end to end. An end on the border (within 1e-6 of the size
+/// of the bounds) counts as inside: veins start at a petiole.
 VN_API bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]);
 /// The domain's value at @p p, in [0, 1]: 1 inside and 0 outside where it has no values of its own.
 VN_API double vn_domain_value(const vn_domain *domain, const double p[3]);

@@ -39,6 +39,8 @@ VN_API int32_t vn_growth_time(const vn_growth *growth);
 /// Today's length, and that of the grown shape.
 VN_API double vn_growth_length(const vn_growth *growth);
 VN_API double vn_growth_final_length(const vn_growth *growth);
+/// The petiole, which stays where it is.
+VN_API void vn_growth_origin(const vn_growth *growth, double p[3]);
 /// Today's unit length in the simulation's coordinates (READINGS R7): 1 under none and marginal growth.
 VN_API double vn_growth_unit(const vn_growth *growth);
 

@@ -14,7 +14,7 @@ extern "C" {
 typedef struct vn_canvas vn_canvas;
 
 typedef struct vn_canvas_def {
-    double width;           ///< pixels, 1 to 32,768; 0: from the height and the view's proportions, or 800
+    double width;           ///< pixels, 1 to 32,767; 0: from the height and the view's proportions, or 800
     double height;          ///< likewise
     vn_box view;            ///< what is fitted, centred, into the canvas: a domain's bounds; empty: the canvas itself,
                             ///< with (0, 0) at its lower left

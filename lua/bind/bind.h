@@ -1,0 +1,104 @@
+/// What the bindings share. A binding checks its arguments, calls the engine and pushes the result; geometry and
+/// policy live elsewhere. Everything here may raise a Lua error, so nothing that owns memory may be held across a call,
+/// except in a userdata.
+#ifndef VN_BIND_BIND_H
+#define VN_BIND_BIND_H
+
+#include "base/schema.h"
+#include "venule/venule.h"
+
+#include <lauxlib.h>
+#include <lua.h>
+
+/// One bound function: everything that the stubs and the reference page say of it.
+typedef struct vnl_function {
+    const char *name;
+    lua_CFunction call;
+    const char *signature;   ///< as LuaCATS writes it: "(x: number, y: number): boolean"; NULL: one table of options
+    const char *returns;     ///< with options: the type of what comes back
+    const char *doc;         ///< one or two sentences
+    const vn_schema *schema; ///< the table of options, or NULL
+} vnl_function;
+
+/// A class of userdata: a box with one pointer, which is NULL once closed.
+typedef struct vnl_class {
+    const char *name; ///< "network"; the metatable is called "venule.network"
+    const char *doc;
+    const vnl_function *methods; ///< ended by a zeroed one
+    const vnl_function *extra;   ///< more methods, shared with another class; may be NULL
+    const char *const *fields;   ///< "x: number[] | each node's …", ended by NULL; for the reference; may be NULL
+    lua_CFunction field;         ///< reads a field: (object, key) → value, or nothing; may be NULL
+    void (*release)(void *object);
+    lua_CFunction length; ///< __len; may be NULL
+} vnl_class;
+
+extern const vnl_class vnl_domain_class;
+extern const vnl_class vnl_growth_class;
+extern const vnl_class vnl_network_class;
+extern const vnl_class vnl_attractors_class;
+extern const vnl_class vnl_influence_class;
+extern const vnl_class vnl_rng_class;
+extern const vnl_class vnl_canvas_class;
+
+/// The functions of `venule` itself and of its tables, each ended by a zeroed one.
+extern const vnl_function vnl_module_functions[];
+extern const vnl_function vnl_domain_functions[];
+extern const vnl_function vnl_growth_functions[];
+
+/// A domain's methods, which a growth has too.
+extern const vnl_function vnl_domain_methods[];
+
+/// Register a class; its metatable is left in the registry.
+void vnl_register(lua_State *L, const vnl_class *class);
+/// Push a table of functions.
+void vnl_push_functions(lua_State *L, const vnl_function *functions);
+
+/// Push an empty box of the class: an error between this and the engine's call leaves something harmless.
+/// Returns the slot for the object. One user value is reserved for what the object must keep alive.
+void **vnl_push_box(lua_State *L, const vnl_class *class);
+/// The object at @p index, which must be an open one of the class.
+void *vnl_check(lua_State *L, int index, const vnl_class *class);
+/// The object at @p index or NULL when it is something else.
+void *vnl_test(lua_State *L, int index, const vnl_class *class);
+/// A domain or a growth.
+vn_domain *vnl_check_domain(lua_State *L, int index);
+vn_domain *vnl_test_domain(lua_State *L, int index);
+/// Keep the value at @p value alive as long as the object at @p object.
+void vnl_keep(lua_State *L, int object, int value);
+
+/// Raise vn_message() as an error with the script's line, unless @p status is VN_OK.
+void vnl_try(lua_State *L, vn_status status);
+/// Raise an error of the script's own with its line: VN_INVALID.
+int vnl_fail(lua_State *L, const char *format, ...) VN_PRINTF(2, 3);
+/// The status of the last raised error, and whether @p message is that error's text. For the host.
+vn_status vnl_status_of(lua_State *L, const char *message);
+
+/// Read the table of options at @p index into @p def, strictly: unknown fields are refused with a suggestion, types and
+/// ranges checked, required fields demanded. VN_MIXED fields are left to the caller. Text stays valid while the table
+/// lives.
+void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def);
+/// Whether the table at @p index has the field; used where "not given" differs from every value.
+bool vnl_has(lua_State *L, int index, const char *field);
+/// Read a point {x, y[, z]}; returns how many coordinates it has. @p what names it in errors.
+int vnl_read_point(lua_State *L, int index, const char *what, double p[3]);
+/// The coordinates x, y[, z] given as arguments from @p index on, for something of @p dim dimensions.
+void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]);
+/// A number that is not a string that looks like one.
+double vnl_check_number(lua_State *L, int index, const char *what);
+/// Push coordinates.
+int vnl_push_coordinates(lua_State *L, int dim, const double p[3]);
+/// Push {min = {…}, max = {…}}.
+void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit);
+
+/// Push the JSON that files carry about how they were made; valid while it is on the stack, NULL where nobody knows.
+const char *vnl_push_manifest(lua_State *L);
+
+/// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and ipairs().
+/// @p read pushes entry @p i (0-based) of it.
+typedef void vnl_read_fn(lua_State *L, void *object, int32_t i);
+typedef int32_t vnl_count_fn(void *object);
+void vnl_push_view(lua_State *L, int object, const vnl_class *class, vnl_read_fn *read, vnl_count_fn *count);
+
+int luaopen_venule(lua_State *L) __attribute__((visibility("default")));
+
+#endif

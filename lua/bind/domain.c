@@ -1,0 +1,320 @@
+#include "bind/bind.h"
+
+#include "domain/domain.h"
+#include "file/svg.h"
+
+#include <string.h>
+
+// Samples are the darts of a throw that nothing else is in the way of.
+static const vn_throw_def sample_default = {0};
+static const vn_field sample_fields[] = {
+    {"spacing", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, spacing), 0, 1e150, "length", NULL,
+     "a point this close to an earlier one is refused; left out: none is"},
+    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng", "the random numbers: venule.rng(seed)"},
+};
+static const vn_schema sample_schema = {"sample", "Uniformly distributed points", sample_fields, 2, sizeof(vn_throw_def),
+                                        &sample_default};
+
+static void release_domain(void *object) {
+    vn_domain_release(object);
+}
+
+static int make_disk(lua_State *L) {
+    vn_disk_def def;
+    vnl_read_options(L, 1, &vn_disk_schema, &def);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_disk((vn_domain **)box, &def));
+    return 1;
+}
+
+static int make_sphere(lua_State *L) {
+    vn_disk_def def;
+    vnl_read_options(L, 1, &vn_disk_schema, &def);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_sphere((vn_domain **)box, &def));
+    return 1;
+}
+
+static int point_dim(lua_State *L, int index, const char *field) {
+    double p[3];
+    lua_getfield(L, index, field);
+    int dim = vnl_read_point(L, -1, field, p);
+    lua_pop(L, 1);
+    return dim;
+}
+
+static int make_box(lua_State *L) {
+    vn_box_def def;
+    vnl_read_options(L, 1, &vn_box_schema, &def);
+    def.dim = point_dim(L, 1, "min");
+    if (point_dim(L, 1, "max") != def.dim) {
+        return vnl_fail(L, "box: min and max must both have 2 coordinates, or both 3");
+    }
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_box((vn_domain **)box, &def));
+    return 1;
+}
+
+// A ring is a list of points; a list of rings has a list of points as its first element.
+static bool is_ring(lua_State *L, int index) {
+    bool ring = false;
+    if (lua_geti(L, index, 1) == LUA_TTABLE) {
+        ring = lua_geti(L, -1, 1) == LUA_TNUMBER;
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return ring;
+}
+
+static void read_ring(lua_State *L, int index, double *xy, lua_Integer count) {
+    for (lua_Integer i = 0; i < count; i++) {
+        double p[3];
+        lua_geti(L, index, i + 1);
+        vnl_read_point(L, -1, "polygon", p);
+        lua_pop(L, 1);
+        xy[2 * i] = p[0];
+        xy[2 * i + 1] = p[1];
+    }
+}
+
+static lua_Integer ring_size(lua_State *L, int index) {
+    if (lua_type(L, index) != LUA_TTABLE) {
+        vnl_fail(L, "polygon: a ring {{x, y}, …} expected, got %s", luaL_typename(L, index));
+    }
+    lua_Integer size = luaL_len(L, index);
+    if (size > 10000000) {
+        vnl_fail(L, "polygon: a ring of %lld points is above the limit of 10,000,000", (long long)size);
+    }
+    return size;
+}
+
+static int make_polygon(lua_State *L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    if (is_ring(L, 1)) { // polygon{{x, y}, …}: one ring and no braces to spare
+        lua_createtable(L, 1, 0);
+        lua_pushvalue(L, 1);
+        lua_seti(L, -2, 1);
+        lua_replace(L, 1);
+    }
+    lua_Integer rings = luaL_len(L, 1);
+    if (rings > 100000) {
+        return vnl_fail(L, "polygon: %lld rings are above the limit of 100,000", (long long)rings);
+    }
+    lua_Integer total = 0;
+    int32_t *sizes = lua_newuserdatauv(L, (size_t)(rings + 1) * sizeof *sizes, 0);
+    for (lua_Integer r = 0; r < rings; r++, lua_pop(L, 1)) {
+        lua_geti(L, 1, r + 1);
+        sizes[r] = (int32_t)ring_size(L, lua_gettop(L));
+        total += sizes[r];
+    }
+    double *xy = lua_newuserdatauv(L, (size_t)(2 * total + 1) * sizeof *xy, 0);
+    double *at = xy;
+    for (lua_Integer r = 0; r < rings; r++, lua_pop(L, 1)) {
+        lua_geti(L, 1, r + 1);
+        read_ring(L, lua_gettop(L), at, sizes[r]);
+        at += 2 * sizes[r];
+    }
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_polygon((vn_domain **)box, xy, sizes, (int32_t)rings));
+    return 1;
+}
+
+static void read_samples(lua_State *L, int index, double *samples, int32_t count) {
+    bool call = lua_isfunction(L, index);
+    for (int32_t i = 0; i < count; i++) {
+        if (call) {
+            lua_pushvalue(L, index);
+            lua_pushnumber(L, (double)i / (count - 1));
+            lua_call(L, 1, 1);
+        } else {
+            lua_geti(L, index, i + 1);
+        }
+        samples[i] = vnl_check_number(L, -1, "profile.half_width");
+        lua_pop(L, 1);
+    }
+}
+
+static int make_profile(lua_State *L) {
+    vn_profile_def def;
+    vnl_read_options(L, 1, &vn_profile_schema, &def);
+    lua_getfield(L, 1, "half_width");
+    int source = lua_gettop(L);
+    if (lua_istable(L, source)) {
+        lua_Integer count = luaL_len(L, source);
+        def.samples = count < 1000000 ? (int32_t)count : 1000000;
+    } else if (!lua_isfunction(L, source)) {
+        return vnl_fail(L, "profile.half_width: a function of t or a table of numbers expected, got %s",
+                        luaL_typename(L, source));
+    }
+    double *samples = lua_newuserdatauv(L, (size_t)(def.samples + 1) * sizeof *samples, 0);
+    read_samples(L, source, samples, def.samples);
+    def.half_width = samples;
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_profile((vn_domain **)box, &def));
+    return 1;
+}
+
+static int make_svg(lua_State *L) {
+    vn_svg_def def;
+    const char *path = luaL_checkstring(L, 1);
+    vnl_read_options(L, 2, &vn_svg_schema, &def);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_svg((vn_domain **)box, path, &def));
+    return 1;
+}
+
+const vnl_function vnl_domain_functions[] = {
+    {"disk", make_disk, NULL, "venule.Domain", "A disk.", &vn_disk_schema},
+    {"sphere", make_sphere, NULL, "venule.Domain", "A ball in 3D.", &vn_disk_schema},
+    {"box", make_box, NULL, "venule.Domain", "An upright rectangle, or in 3D a box.", &vn_box_schema},
+    {"polygon", make_polygon, "(rings: number[][][]): venule.Domain", NULL,
+     "A polygon with holes: `polygon{outer, hole, …}`, each ring a list of points {x, y}; a single ring may stand without "
+     "the outer braces. Orientation is free; a ring inside another is a hole.",
+     NULL},
+    {"profile", make_profile, NULL, "venule.Domain", "A leaf blade by its half width along the midrib, the y axis.",
+     &vn_profile_schema},
+    {"svg", make_svg, "(path: string, options?: venule.svg.Options): venule.Domain", NULL,
+     "The outline of a shape in an SVG file, y up: in the user units of its viewBox, whose lower left corner becomes "
+     "(0, 0), or in mm when the file gives its width in mm, cm, in or pt.",
+     &vn_svg_schema},
+    {0},
+};
+
+static int domain_contains(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    double p[3];
+    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
+    lua_pushboolean(L, vn_domain_contains(domain, p));
+    return 1;
+}
+
+static int domain_distance(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    double p[3];
+    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
+    lua_pushnumber(L, vn_domain_distance(domain, p));
+    return 1;
+}
+
+static int domain_closest(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    double p[3], q[3];
+    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
+    vn_domain_closest(domain, p, q);
+    return vnl_push_coordinates(L, vn_domain_dim(domain), q);
+}
+
+static int domain_value(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    double p[3];
+    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
+    lua_pushnumber(L, vn_domain_value(domain, p));
+    return 1;
+}
+
+static int domain_bounds(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    vn_box bounds = vn_domain_bounds(domain);
+    vnl_push_bounds(L, vn_domain_dim(domain), &bounds, vn_domain_unit(domain));
+    return 1;
+}
+
+static int domain_measure(lua_State *L) {
+    lua_pushnumber(L, vn_domain_measure(vnl_check_domain(L, 1)));
+    return 1;
+}
+
+static int domain_sample(lua_State *L) {
+    vn_domain *domain = vnl_check_domain(L, 1);
+    lua_Integer count = luaL_checkinteger(L, 2);
+    if (count < 1 || count > 100000000) {
+        return vnl_fail(L, "domain:sample(%lld): from 1 to 100,000,000 points", (long long)count);
+    }
+    vn_throw_def def;
+    vnl_read_options(L, 3, &sample_schema, &def);
+    def.domain = domain;
+    def.count = (int32_t)count;
+    vn_attractors_def set = vn_attractors_def_default();
+    set.dim = vn_domain_dim(domain);
+    void **box = vnl_push_box(L, &vnl_attractors_class);
+    vnl_try(L, vn_attractors_create((vn_attractors **)box, &set));
+    int32_t accepted;
+    vnl_try(L, vn_throw(*box, &def, &accepted));
+    lua_createtable(L, accepted, 0);
+    for (int32_t i = 0; i < accepted; i++) {
+        double p[3];
+        vnl_try(L, vn_attractors_position(*box, i, p));
+        lua_createtable(L, set.dim, 0);
+        for (int k = 0; k < set.dim; k++) {
+            lua_pushnumber(L, p[k]);
+            lua_rawseti(L, -2, k + 1);
+        }
+        lua_rawseti(L, -2, i + 1);
+    }
+    return 1;
+}
+
+static int combine(lua_State *L, vn_combination how) {
+    vn_domain *a = vnl_check_domain(L, 1);
+    vn_domain *b = vnl_check_domain(L, 2);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_combine((vn_domain **)box, a, b, how));
+    return 1;
+}
+
+static int domain_minus(lua_State *L) {
+    return combine(L, VN_DIFFERENCE);
+}
+
+static int domain_plus(lua_State *L) {
+    return combine(L, VN_UNION);
+}
+
+static int domain_times(lua_State *L) {
+    return combine(L, VN_INTERSECTION);
+}
+
+static int domain_field(lua_State *L) {
+    const vn_domain *domain = vnl_check(L, 1, &vnl_domain_class);
+    const char *key = luaL_tolstring(L, 2, NULL);
+    if (strcmp(key, "dim") == 0) {
+        lua_pushinteger(L, vn_domain_dim(domain));
+        return 1;
+    }
+    if (strcmp(key, "unit") == 0) {
+        lua_pushstring(L, vn_domain_unit(domain));
+        return 1;
+    }
+    return 0;
+}
+
+static const char *const fields[] = {"dim: integer | 2 or 3", "unit: string | the length unit of its file, or \"\"", NULL};
+
+const vnl_function vnl_domain_methods[] = {
+    {"contains", domain_contains, "(x: number, y: number, z?: number): boolean", NULL, "Whether a point is inside.", NULL},
+    {"distance", domain_distance, "(x: number, y: number, z?: number): number", NULL,
+     "The distance to the border: positive inside, negative outside.", NULL},
+    {"closest", domain_closest, "(x: number, y: number, z?: number): number, number, number?", NULL,
+     "The border's nearest point.", NULL},
+    {"value", domain_value, "(x: number, y: number, z?: number): number", NULL,
+     "Its value there, in [0, 1]: 1 inside and 0 outside where it has no values of its own.", NULL},
+    {"bounds", domain_bounds, "(): venule.Bounds", NULL, "The box around it: {min = {…}, max = {…}}.", NULL},
+    {"measure", domain_measure, "(): number", NULL, "Its area, or in 3D its volume.", NULL},
+    {"sample", domain_sample, "(n: integer, options: venule.sample.Options): number[][]", NULL,
+     "Throw n darts, uniformly distributed; the points {x, y} of those that stick. `rng` is required; with `spacing` a "
+     "dart that close to an earlier one is refused.",
+     &sample_schema},
+    {"__sub", domain_minus, "(other: venule.Domain): venule.Domain", NULL, "`a - b`: what is in a and not in b.", NULL},
+    {"__add", domain_plus, "(other: venule.Domain): venule.Domain", NULL, "`a + b`: what is in a or in b.", NULL},
+    {"__mul", domain_times, "(other: venule.Domain): venule.Domain", NULL, "`a * b`: what is in both.", NULL},
+    {0},
+};
+
+const vnl_class vnl_domain_class = {
+    .name = "domain",
+    .doc = "Where something may grow. Domains combine: `blade - hole`, `a + b`, `a * b`.",
+    .methods = vnl_domain_methods,
+    .fields = fields,
+    .field = domain_field,
+    .release = release_domain,
+};

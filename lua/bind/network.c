@@ -1,0 +1,364 @@
+#include "bind/bind.h"
+
+#include "colonize/attractors.h"
+#include "network/network.h"
+
+#include <string.h>
+
+static void release_network(void *object) {
+    vn_network_destroy(object);
+}
+
+static vn_network *check_network(lua_State *L) {
+    return vnl_check(L, 1, &vnl_network_class);
+}
+
+static int32_t check_node(lua_State *L, int index, const vn_network *network, const char *what) {
+    lua_Integer node = luaL_checkinteger(L, index);
+    if (node < 1 || node > vn_network_count(network)) {
+        vnl_fail(L, "%s: node %lld is not one of the %d there are", what, (long long)node, vn_network_count(network));
+    }
+    return (int32_t)(node - 1);
+}
+
+static void set_law(lua_State *L, int index, vn_network *network) {
+    vn_murray_def def;
+    vnl_read_options(L, index, &vn_murray_schema, &def);
+    vnl_try(L, vn_network_murray(network, &def));
+}
+
+static int make_network(lua_State *L) {
+    vn_network_def def;
+    vnl_read_options(L, 1, &vn_network_schema, &def);
+    void **box = vnl_push_box(L, &vnl_network_class);
+    vnl_try(L, vn_network_create((vn_network **)box, &def));
+    if (lua_getfield(L, 1, "murray") != LUA_TNIL) {
+        set_law(L, lua_gettop(L), *box);
+    }
+    lua_pop(L, 1);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.network.latest"); // what progress is shown of
+    return 1;
+}
+
+static int network_root(lua_State *L) {
+    vn_network *network = check_network(L);
+    double p[3];
+    int32_t node;
+    vnl_check_coordinates(L, 2, vn_network_dim(network), p);
+    vnl_try(L, vn_network_root(network, p, &node));
+    lua_pushinteger(L, node + 1);
+    return 1;
+}
+
+static int network_add(lua_State *L) {
+    vn_network *network = check_network(L);
+    double p[3];
+    int32_t parent = check_node(L, 2, network, "network:add");
+    int32_t node;
+    vnl_check_coordinates(L, 3, vn_network_dim(network), p);
+    vnl_try(L, vn_network_add(network, parent, p, &node));
+    lua_pushinteger(L, node + 1);
+    return 1;
+}
+
+static int network_join(lua_State *L) {
+    vn_network *network = check_network(L);
+    int32_t a = check_node(L, 2, network, "network:join");
+    int32_t b = check_node(L, 3, network, "network:join");
+    double radius = lua_isnoneornil(L, 4) ? 0 : vnl_check_number(L, 4, "network:join radius");
+    vnl_try(L, vn_network_join(network, a, b, radius));
+    return 0;
+}
+
+static int network_murray(lua_State *L) {
+    set_law(L, 2, check_network(L));
+    return 0;
+}
+
+// The engine lists the newest child first; people count upwards.
+static int network_children(lua_State *L) {
+    vn_network *network = check_network(L);
+    int32_t node = check_node(L, 2, network, "network:children");
+    int count = 0;
+    for (int32_t c = vn_network_first_child(network, node); c >= 0; c = vn_network_next_child(network, c)) {
+        count++;
+    }
+    lua_createtable(L, count, 0);
+    for (int32_t c = vn_network_first_child(network, node); c >= 0; c = vn_network_next_child(network, c)) {
+        lua_pushinteger(L, c + 1);
+        lua_rawseti(L, -2, count--);
+    }
+    return 1;
+}
+
+static int network_joins(lua_State *L) {
+    vn_network *network = check_network(L);
+    int32_t count = vn_network_join_count(network);
+    lua_createtable(L, count, 0);
+    for (int32_t i = 0; i < count; i++) {
+        int32_t a, b;
+        double radius;
+        vn_network_join_ends(network, i, &a, &b, &radius);
+        lua_createtable(L, 0, 3);
+        lua_pushinteger(L, a + 1);
+        lua_setfield(L, -2, "a");
+        lua_pushinteger(L, b + 1);
+        lua_setfield(L, -2, "b");
+        lua_pushnumber(L, radius);
+        lua_setfield(L, -2, "radius");
+        lua_rawseti(L, -2, i + 1);
+    }
+    return 1;
+}
+
+static int network_orders(lua_State *L) {
+    vn_network *network = check_network(L);
+    const char *word = luaL_checkstring(L, 2);
+    int kind = vn_choice_index("strahler|horton|hickey", word);
+    if (kind < 0) {
+        return vnl_fail(L, "network:orders(\"%s\") must be one of strahler, horton, hickey", word);
+    }
+    vnl_try(L, vn_network_set_orders(network, (vn_order_kind)kind));
+    return 0;
+}
+
+static void set_count(lua_State *L, const char *name, lua_Integer value) {
+    lua_pushinteger(L, value);
+    lua_setfield(L, -2, name);
+}
+
+static void set_number(lua_State *L, const char *name, double value) {
+    lua_pushnumber(L, value);
+    lua_setfield(L, -2, name);
+}
+
+static int network_measure(lua_State *L) {
+    vn_network *network = check_network(L);
+    vn_network_measures m;
+    vnl_try(L, vn_network_measure(network, &m));
+    lua_createtable(L, 0, 10);
+    set_count(L, "nodes", m.nodes);
+    set_count(L, "roots", m.roots);
+    set_count(L, "tips", m.tips);
+    set_count(L, "bifurcations", m.bifurcations);
+    set_count(L, "joins", m.joins);
+    set_count(L, "depth", m.depth);
+    set_number(L, "length", m.length);
+    set_number(L, "min_radius", m.min_radius);
+    set_number(L, "max_radius", m.max_radius);
+    vnl_push_bounds(L, vn_network_dim(network), &m.extent, vn_network_unit(network));
+    lua_setfield(L, -2, "extent");
+    return 1;
+}
+
+static int network_scale(lua_State *L) {
+    vn_network *network = check_network(L);
+    vnl_try(L, vn_network_scale(network, vnl_check_number(L, 2, "network:scale")));
+    return 0;
+}
+
+static int network_save(lua_State *L) {
+    vn_network *network = check_network(L);
+    const char *path = luaL_checkstring(L, 2);
+    const char *manifest = vnl_push_manifest(L);
+    vnl_try(L, vn_network_save(network, path, manifest));
+    return 0;
+}
+
+static int network_extend(lua_State *L) {
+    vn_network *network = check_network(L);
+    vn_influence *influence = vnl_check(L, 2, &vnl_influence_class);
+    vn_extend_def def;
+    int32_t added, first;
+    vnl_read_options(L, 3, &vn_extend_schema, &def);
+    vnl_try(L, vn_extend(network, influence, &def, &added, &first));
+    lua_pushinteger(L, added);
+    lua_pushinteger(L, first + 1);
+    return 2;
+}
+
+static const vnl_function methods[] = {
+    {"root", network_root, "(x: number, y: number, z?: number): integer", NULL, "Add a root; its index.", NULL},
+    {"add", network_add, "(parent: integer, x: number, y: number, z?: number): integer", NULL,
+     "Add a child of a node; its index.", NULL},
+    {"join", network_join, "(a: integer, b: integer, radius?: number)", NULL,
+     "Close a loop by an edge between two nodes.", NULL},
+    {"murray", network_murray, "(options: venule.murray.Options)", NULL,
+     "Give the edges radii by Murray's law; from now on they follow it, however the network grows.", &vn_murray_schema},
+    {"extend", network_extend, "(influence: venule.Influence, options: venule.extend.Options): integer, integer", NULL,
+     "Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many "
+     "nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.",
+     &vn_extend_schema},
+    {"children", network_children, "(node: integer): integer[]", NULL, "The children of a node, in the order of birth.",
+     NULL},
+    {"joins", network_joins, "(): {a: integer, b: integer, radius: number}[]", NULL,
+     "The extra edges that close loops.", NULL},
+    {"orders", network_orders, "(kind: \"strahler\"|\"horton\"|\"hickey\")", NULL,
+     "Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order.", NULL},
+    {"measure", network_measure, "(): venule.Measures", NULL,
+     "Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, max_radius, extent.",
+     NULL},
+    {"scale", network_scale, "(factor: number)", NULL, "Multiply all coordinates and radii.", NULL},
+    {"save", network_save, "(path: string)", NULL, "Write the network as JSON.", NULL},
+    {0},
+};
+
+static int32_t count_nodes(void *object) {
+    return vn_network_count(object);
+}
+
+static void read_x(lua_State *L, void *object, int32_t i) {
+    lua_pushnumber(L, vn_network_x(object)[i]);
+}
+
+static void read_y(lua_State *L, void *object, int32_t i) {
+    lua_pushnumber(L, vn_network_y(object)[i]);
+}
+
+static void read_z(lua_State *L, void *object, int32_t i) {
+    const double *z = vn_network_z(object);
+    lua_pushnumber(L, z != NULL ? z[i] : 0);
+}
+
+static void read_parent(lua_State *L, void *object, int32_t i) {
+    lua_pushinteger(L, vn_network_parent(object)[i] + 1);
+}
+
+static void read_tree(lua_State *L, void *object, int32_t i) {
+    lua_pushinteger(L, vn_network_tree(object)[i] + 1);
+}
+
+static void read_birth(lua_State *L, void *object, int32_t i) {
+    lua_pushinteger(L, vn_network_birth(object)[i]);
+}
+
+static void read_radius(lua_State *L, void *object, int32_t i) {
+    lua_pushnumber(L, vn_network_radius(object, i));
+}
+
+static void read_order(lua_State *L, void *object, int32_t i) {
+    const int32_t *orders = vn_network_orders(object);
+    if (orders == NULL) {
+        vnl_fail(L, "network.order is not known: call net:orders(\"hickey\") after the last change");
+    }
+    lua_pushinteger(L, orders[i]);
+}
+
+static const struct {
+    const char *name;
+    vnl_read_fn *read;
+} columns[] = {{"x", read_x},       {"y", read_y},         {"z", read_z},         {"parent", read_parent},
+               {"tree", read_tree}, {"birth", read_birth}, {"radius", read_radius}, {"order", read_order}};
+
+static int network_field(lua_State *L) {
+    const vn_network *network = check_network(L);
+    const char *key = luaL_tolstring(L, 2, NULL);
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        if (strcmp(key, columns[i].name) == 0) {
+            vnl_push_view(L, 1, &vnl_network_class, columns[i].read, count_nodes);
+            return 1;
+        }
+    }
+    if (strcmp(key, "dim") == 0) {
+        lua_pushinteger(L, vn_network_dim(network));
+        return 1;
+    }
+    if (strcmp(key, "unit") == 0) {
+        lua_pushstring(L, vn_network_unit(network));
+        return 1;
+    }
+    return 0;
+}
+
+static int network_length(lua_State *L) {
+    lua_pushinteger(L, vn_network_count(check_network(L)));
+    return 1;
+}
+
+static const char *const fields[] = {"x: number[] | the nodes' coordinates",
+                                     "y: number[] | the nodes' coordinates",
+                                     "z: number[] | the nodes' coordinates; 0 in 2D",
+                                     "parent: integer[] | each node's parent, 0 at a root",
+                                     "radius: number[] | of the edge to the parent; at a root, of its thickest child",
+                                     "order: integer[] | of that edge, once net:orders(…) was called",
+                                     "tree: integer[] | which root each node hangs from, counted from 1",
+                                     "birth: integer[] | the step each node was born in",
+                                     "dim: integer | 2 or 3",
+                                     "unit: string | the length unit that files carry",
+                                     NULL};
+
+const vnl_class vnl_network_class = {
+    .name = "network",
+    .doc = "What grows: a forest of nodes, and joins that close loops. `#net` nodes, numbered from 1.",
+    .methods = methods,
+    .fields = fields,
+    .field = network_field,
+    .release = release_network,
+    .length = network_length,
+};
+
+static int load_networks(lua_State *L) {
+    const char *path = luaL_checkstring(L, 1);
+    vn_network_set set;
+    vnl_try(L, vn_networks_load(&set, path));
+    // The set is handed over piece by piece; should Lua run out of memory here, its remains are lost to the process's end.
+    bool single = set.count == 1 && set.names[0][0] == '\0';
+    if (!single) {
+        lua_createtable(L, 0, set.count);
+    }
+    for (int32_t i = 0; i < set.count; i++) {
+        void **box = vnl_push_box(L, &vnl_network_class);
+        *box = set.networks[i];
+        set.networks[i] = NULL;
+        if (!single) {
+            lua_setfield(L, -2, set.names[i]);
+        }
+    }
+    vn_networks_free(&set);
+    return 1;
+}
+
+enum { MOST_NETWORKS = 256 };
+
+static int save_networks(lua_State *L) {
+    const char *path = luaL_checkstring(L, 1);
+    vn_network *single = vnl_test(L, 2, &vnl_network_class);
+    const vn_network *networks[MOST_NETWORKS];
+    const char *names[MOST_NETWORKS];
+    int32_t count = 0;
+    if (single == NULL) {
+        luaL_checktype(L, 2, LUA_TTABLE);
+        for (lua_pushnil(L); lua_next(L, 2) != 0; lua_pop(L, 1), count++) {
+            if (lua_type(L, -2) != LUA_TSTRING || count == MOST_NETWORKS) {
+                return vnl_fail(L, "save: a table {name = network, …} of at most %d expected", MOST_NETWORKS);
+            }
+            names[count] = lua_tostring(L, -2);
+            networks[count] = vnl_check(L, -1, &vnl_network_class);
+        }
+    }
+    // lua_next() walks in an order of hashes; a file must not.
+    for (int32_t i = 1; i < count; i++) {
+        for (int32_t j = i; j > 0 && strcmp(names[j - 1], names[j]) > 0; j--) {
+            const char *name = names[j];
+            const vn_network *network = networks[j];
+            names[j] = names[j - 1];
+            networks[j] = networks[j - 1];
+            names[j - 1] = name;
+            networks[j - 1] = network;
+        }
+    }
+    const char *manifest = vnl_push_manifest(L);
+    vnl_try(L, single != NULL ? vn_network_save(single, path, manifest)
+                              : vn_networks_save(networks, names, count, path, manifest));
+    return 0;
+}
+
+const vnl_function vnl_network_functions[] = {
+    {"network", make_network, NULL, "venule.Network", "An empty network.", &vn_network_schema},
+    {"load", load_networks, "(path: string): venule.Network|table<string, venule.Network>", NULL,
+     "Read a network from a JSON file; or, where it holds several, a table of them by name.", NULL},
+    {"save", save_networks, "(path: string, networks: venule.Network|table<string, venule.Network>)", NULL,
+     "Write one network, or several by name, as JSON.", NULL},
+    {0},
+};

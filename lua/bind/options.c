@@ -1,0 +1,213 @@
+// The strict reader: one schema row says what a field may be, and this file says so to whoever got it wrong.
+
+#include "bind/bind.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const vnl_class *class_by_name(const char *name) {
+    static const vnl_class *const classes[] = {&vnl_domain_class,     &vnl_growth_class,    &vnl_network_class,
+                                               &vnl_attractors_class, &vnl_influence_class, &vnl_rng_class,
+                                               &vnl_canvas_class};
+    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
+        if (strcmp(classes[i]->name, name) == 0) {
+            return classes[i];
+        }
+    }
+    return NULL;
+}
+
+static void fail_type(lua_State *L, const vn_schema *schema, const vn_field *field, const char *wanted) {
+    vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, luaL_typename(L, -1),
+             field->doc);
+}
+
+static void fail_unknown_field(lua_State *L, const vn_schema *schema) {
+    const char *names[64];
+    int count = 0;
+    for (; count < schema->count && count < 64; count++) {
+        names[count] = schema->fields[count].name;
+    }
+    // lua_tostring() would turn a number in place and confuse lua_next(); luaL_tolstring() makes a copy.
+    const char *key = luaL_tolstring(L, -2, NULL);
+    const char *closest = vn_closest_name(key, names, count);
+    if (closest != NULL) {
+        vnl_fail(L, "%s: unknown field \"%s\", did you mean \"%s\"?", schema->name, key, closest);
+    }
+    vnl_fail(L, "%s: unknown field \"%s\"", schema->name, key);
+}
+
+static void read_number(lua_State *L, const vn_schema *schema, const vn_field *field, void *slot) {
+    if (lua_type(L, -1) != LUA_TNUMBER) {
+        fail_type(L, schema, field, "number");
+    }
+    double value = lua_tonumber(L, -1);
+    vnl_try(L, vn_check_number(schema, field, value));
+    if (field->type == VN_F64) {
+        *(double *)slot = value;
+        return;
+    }
+    lua_Integer whole;
+    int exact;
+    whole = lua_tointegerx(L, -1, &exact);
+    if (!exact) {
+        vnl_fail(L, "%s.%s = %g must be a whole number: %s", schema->name, field->name, value, field->doc);
+    }
+    if (field->type == VN_I32) {
+        *(int32_t *)slot = (int32_t)whole;
+    } else {
+        *(int64_t *)slot = whole;
+    }
+}
+
+static void read_choice(lua_State *L, const vn_schema *schema, const vn_field *field, void *slot) {
+    if (lua_type(L, -1) != LUA_TSTRING) {
+        fail_type(L, schema, field, field->kind);
+    }
+    int choice = vn_choice_index(field->kind, lua_tostring(L, -1));
+    if (choice < 0) {
+        vnl_fail(L, "%s.%s = \"%s\" must be one of %s: %s", schema->name, field->name, lua_tostring(L, -1),
+                 field->kind, field->doc);
+    }
+    *(int *)slot = choice;
+}
+
+static void read_object(lua_State *L, const vn_schema *schema, const vn_field *field, void *slot) {
+    const vnl_class *class = class_by_name(field->kind);
+    void *object = class == &vnl_domain_class ? (void *)vnl_test_domain(L, -1) : vnl_test(L, -1, class);
+    if (object == NULL) {
+        fail_type(L, schema, field, field->kind);
+    }
+    *(void **)slot = object;
+}
+
+int vnl_read_point(lua_State *L, int index, const char *what, double p[3]) {
+    index = lua_absindex(L, index);
+    if (lua_type(L, index) != LUA_TTABLE) {
+        vnl_fail(L, "%s: a point {x, y} expected, got %s", what, luaL_typename(L, index));
+    }
+    lua_Integer count = luaL_len(L, index);
+    if (count < 2 || count > 3) {
+        vnl_fail(L, "%s: a point has 2 or 3 coordinates, not %d", what, (int)count);
+    }
+    p[2] = 0;
+    for (int k = 0; k < count; k++) {
+        lua_geti(L, index, k + 1);
+        p[k] = vnl_check_number(L, -1, what);
+        lua_pop(L, 1);
+    }
+    return (int)count;
+}
+
+static void read_point(lua_State *L, const vn_schema *schema, const vn_field *field, double *slot) {
+    char what[96];
+    snprintf(what, sizeof what, "%s.%s", schema->name, field->name);
+    vnl_read_point(L, -1, what, slot);
+}
+
+static void read_field(lua_State *L, const vn_schema *schema, const vn_field *field, void *def) {
+    void *slot = (char *)def + field->offset;
+    switch (field->type) {
+    case VN_F64:
+    case VN_I32:
+    case VN_I64:
+        read_number(L, schema, field, slot);
+        break;
+    case VN_BOOL:
+        if (!lua_isboolean(L, -1)) {
+            fail_type(L, schema, field, "true or false");
+        }
+        *(bool *)slot = lua_toboolean(L, -1);
+        break;
+    case VN_CHOICE:
+        read_choice(L, schema, field, slot);
+        break;
+    case VN_POINT:
+        read_point(L, schema, field, slot);
+        break;
+    case VN_TEXT:
+        if (lua_type(L, -1) != LUA_TSTRING) {
+            fail_type(L, schema, field, "string");
+        }
+        *(const char **)slot = lua_tostring(L, -1);
+        break;
+    case VN_OBJECT:
+        read_object(L, schema, field, slot);
+        break;
+    case VN_MIXED:
+        break;
+    }
+}
+
+void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def) {
+    index = lua_absindex(L, index);
+    memcpy(def, schema->defaults, schema->size);
+    if (lua_isnoneornil(L, index)) {
+        lua_newtable(L);
+        lua_replace(L, index);
+    }
+    if (!lua_istable(L, index)) {
+        vnl_fail(L, "%s: a table of options {…} expected, got %s", schema->name, luaL_typename(L, index));
+    }
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : NULL;
+        const vn_field *field = key != NULL ? vn_find_field(schema, key) : NULL;
+        if (field == NULL) {
+            fail_unknown_field(L, schema);
+        }
+        read_field(L, schema, field, def);
+    }
+    for (int i = 0; i < schema->count; i++) {
+        const vn_field *field = &schema->fields[i];
+        if ((field->flags & VN_REQUIRED) && !vnl_has(L, index, field->name)) {
+            vnl_fail(L, "%s: `%s` is missing: %s", schema->name, field->name, field->doc);
+        }
+    }
+}
+
+bool vnl_has(lua_State *L, int index, const char *field) {
+    bool has = lua_getfield(L, index, field) != LUA_TNIL;
+    lua_pop(L, 1);
+    return has;
+}
+
+double vnl_check_number(lua_State *L, int index, const char *what) {
+    if (lua_type(L, index) != LUA_TNUMBER) {
+        vnl_fail(L, "%s: number expected, got %s", what, luaL_typename(L, index));
+    }
+    return lua_tonumber(L, index);
+}
+
+void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]) {
+    static const char *const names[3] = {"x", "y", "z"};
+    p[2] = 0;
+    for (int k = 0; k < dim; k++) {
+        p[k] = vnl_check_number(L, index + k, names[k]);
+    }
+}
+
+int vnl_push_coordinates(lua_State *L, int dim, const double p[3]) {
+    for (int k = 0; k < dim; k++) {
+        lua_pushnumber(L, p[k]);
+    }
+    return dim;
+}
+
+static void push_corner(lua_State *L, int dim, const double p[3], const char *name) {
+    lua_createtable(L, dim, 0);
+    for (int k = 0; k < dim; k++) {
+        lua_pushnumber(L, p[k]);
+        lua_rawseti(L, -2, k + 1);
+    }
+    lua_setfield(L, -2, name);
+}
+
+void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit) {
+    lua_createtable(L, 0, 3);
+    push_corner(L, dim, box->min, "min");
+    push_corner(L, dim, box->max, "max");
+    if (unit != NULL && unit[0] != '\0') {
+        lua_pushstring(L, unit);
+        lua_setfield(L, -2, "unit");
+    }
+}

@@ -1,0 +1,272 @@
+// Writes lua/library/venule.lua (editor stubs) and docs/reference.md from the tables of the bindings, the schema rows and
+// the rows of the systems written in Lua. A function without a sentence of documentation stops it.
+
+#include "bind/bind.h"
+
+#include <lualib.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+extern const vnl_function vnl_network_functions[];
+extern const vnl_function vnl_attractors_functions[];
+extern const vnl_function vnl_canvas_functions[];
+
+typedef struct writer {
+    FILE *stubs;
+    FILE *page;
+    int missing;
+} writer;
+
+static const char *lua_type_of(const vn_field *field) {
+    static const char *const names[] = {"number", "integer", "integer", "boolean", "string", "number[]", "string", "", "any"};
+    return names[field->type];
+}
+
+static void capitalised(char *out, size_t size, const char *name) {
+    snprintf(out, size, "venule.%c%s", name[0] - 'a' + 'A', name + 1);
+}
+
+static void type_of(char *out, size_t size, const vn_field *field) {
+    if (field->type == VN_OBJECT) {
+        capitalised(out, size, field->kind);
+        if (strcmp(field->kind, "domain") == 0) {
+            strncat(out, "|venule.Growth", size - strlen(out) - 1);
+        }
+    } else {
+        snprintf(out, size, "%s", lua_type_of(field));
+    }
+}
+
+static void choices_of(FILE *file, const vn_field *field) {
+    for (const char *at = field->kind; at != NULL;) {
+        const char *end = strchr(at, '|');
+        int length = end != NULL ? (int)(end - at) : (int)strlen(at);
+        fprintf(file, "%s\"%.*s\"", at > field->kind ? "|" : "", length, at);
+        at = end != NULL ? end + 1 : NULL;
+    }
+}
+
+static void default_of(char *out, size_t size, const vn_schema *schema, const vn_field *field) {
+    const char *slot = (const char *)schema->defaults + field->offset;
+    out[0] = '\0';
+    if ((field->flags & (VN_REQUIRED | VN_OPTIONAL)) != 0) {
+        return;
+    }
+    if (field->type == VN_F64 || field->type == VN_I32 || field->type == VN_I64) {
+        snprintf(out, size, "%g", vn_field_number(field, schema->defaults));
+    } else if (field->type == VN_BOOL) {
+        snprintf(out, size, "%s", *(const bool *)slot ? "true" : "false");
+    } else if (field->type == VN_TEXT) {
+        const char *text = *(const char *const *)(const void *)slot;
+        snprintf(out, size, "\"%s\"", text != NULL ? text : "");
+    } else if (field->type == VN_CHOICE) {
+        size_t length = strcspn(field->kind, "|"); // every default is the first choice
+        snprintf(out, size, "\"%.*s\"", (int)length, field->kind);
+    }
+}
+
+static void range_of(char *out, size_t size, const vn_field *field) {
+    bool numeric = field->type == VN_F64 || field->type == VN_I32 || field->type == VN_I64;
+    bool open = field->max >= 1e9;
+    out[0] = '\0';
+    if (!numeric) {
+        return;
+    }
+    if (field->flags & VN_ABOVE_MIN) {
+        snprintf(out, size, open ? "above %g" : "above %g, to %g", field->min, field->max);
+    } else if (field->min > -1e9) {
+        snprintf(out, size, open ? "%g or more" : "%g to %g", field->min, field->max);
+    }
+}
+
+static void write_field(writer *w, const vn_schema *schema, const vn_field *field) {
+    char type[96], value[96], range[96];
+    bool required = field->flags & VN_REQUIRED;
+    type_of(type, sizeof type, field);
+    default_of(value, sizeof value, schema, field);
+    range_of(range, sizeof range, field);
+    fprintf(w->stubs, "---@field %s%s ", field->name, required ? "" : "?");
+    fprintf(w->page, "| `%s` | ", field->name);
+    if (field->type == VN_CHOICE) {
+        choices_of(w->stubs, field);
+        fprintf(w->page, "`%s`", field->kind);
+    } else {
+        fputs(type, w->stubs);
+        fputs(field->type == VN_MIXED ? field->kind : type, w->page);
+    }
+    fprintf(w->stubs, " # %s%s%s%s%s%s\n", field->doc, field->unit[0] ? ", " : "", field->unit, value[0] ? " (default " : "",
+            value, value[0] ? ")" : "");
+    fprintf(w->page, " | %s | %s | %s | %s |\n", required ? "required" : value, range, field->unit, field->doc);
+}
+
+static void write_options(writer *w, const vn_schema *schema) {
+    fprintf(w->stubs, "---@class (exact) venule.%s.Options\n", schema->name);
+    fprintf(w->page, "\n| option | type | default | range | unit | |\n|---|---|---|---|---|---|\n");
+    for (int i = 0; i < schema->count; i++) {
+        write_field(w, schema, &schema->fields[i]);
+    }
+    fputs("\n", w->stubs);
+}
+
+static void write_signature(writer *w, const vnl_function *f) {
+    if (f->signature == NULL) {
+        fprintf(w->stubs, "---@param options venule.%s.Options\n---@return %s\n", f->schema->name, f->returns);
+        return;
+    }
+    // "(a: integer, b?: number): number" becomes a @param a line, and what follows the parenthesis a @return.
+    const char *at = f->signature + 1;
+    int depth = 0;
+    while (*at != ')' || depth > 0) {
+        const char *end = at;
+        for (; (*end != ',' && *end != ')') || depth > 0; end++) {
+            depth += (*end == '(' || *end == '{' || *end == '<') - (*end == ')' || *end == '}' || *end == '>');
+        }
+        const char *colon = memchr(at, ':', (size_t)(end - at));
+        if (colon != NULL) {
+            fprintf(w->stubs, "---@param %.*s%.*s\n", (int)(colon - at), at, (int)(end - colon - 1), colon + 1);
+        }
+        at = *end == ',' ? end + 2 : end;
+    }
+    if (at[1] == ':') {
+        fprintf(w->stubs, "---@return %s\n", at + 3);
+    }
+}
+
+static void write_parameters(FILE *file, const vnl_function *f) {
+    if (f->signature == NULL) {
+        fputs("(options)", file);
+        return;
+    }
+    char list[256] = "(";
+    bool in_name = true;
+    int depth = 0;
+    for (const char *c = f->signature + 1; *c != ')' || depth > 0; c++) {
+        depth += (*c == '(' || *c == '{') - (*c == ')' || *c == '}');
+        if (*c == ',' && depth == 0) {
+            in_name = true;
+        } else if (*c == ':') {
+            in_name = false;
+        }
+        if (in_name && *c != '?') {
+            strncat(list, c, 1);
+        }
+    }
+    fprintf(file, "%s)", list);
+}
+
+static void write_function(writer *w, const vnl_function *f, const char *owner, char separator) {
+    if (f->doc == NULL || f->doc[0] == '\0') {
+        fprintf(stderr, "venule_reference: %s%c%s has no documentation\n", owner, separator, f->name);
+        w->missing++;
+        return;
+    }
+    bool operator= strncmp(f->name, "__", 2) == 0;
+    fprintf(w->page, "\n### `%s%c%s%s`\n\n%s\n", operator? "" : owner, operator? ' ' : separator, f->name,
+            f->signature != NULL ? f->signature : "{…}", f->doc);
+    if (f->schema != NULL) {
+        write_options(w, f->schema);
+    }
+    if (!operator) {
+        fprintf(w->stubs, "---%s\n", f->doc);
+        write_signature(w, f);
+        fprintf(w->stubs, "function %s%c%s", owner, separator, f->name);
+        write_parameters(w->stubs, f);
+        fputs(" end\n\n", w->stubs);
+    }
+}
+
+static void write_functions(writer *w, const vnl_function *functions, const char *owner, char separator) {
+    for (const vnl_function *f = functions; f != NULL && f->name != NULL; f++) {
+        write_function(w, f, owner, separator);
+    }
+}
+
+static void write_class_fields(writer *w, const vnl_class *class) {
+    for (int i = 0; class->fields != NULL && class->fields[i] != NULL; i++) {
+        const char *field = class->fields[i];
+        const char *colon = strchr(field, ':');
+        const char *bar = strstr(field, " | ");
+        fprintf(w->stubs, "---@field %.*s %.*s # %s\n", (int)(colon - field), field, (int)(bar - colon - 2), colon + 2, bar + 3);
+        fprintf(w->page, "%s| `%.*s` | %.*s | %s |\n", i == 0 ? "\n| field | type | |\n|---|---|---|\n" : "",
+                (int)(colon - field), field, (int)(bar - colon - 2), colon + 2, bar + 3);
+    }
+}
+
+static void write_class(writer *w, const vnl_class *class) {
+    char name[64];
+    capitalised(name, sizeof name, class->name);
+    fprintf(w->page, "\n## %s\n\n%s\n", name, class->doc);
+    fprintf(w->stubs, "---%s\n---@class %s%s\n", class->doc, name, class == &vnl_growth_class ? ": venule.Domain" : "");
+    for (const vnl_function *f = class->methods; f->name != NULL; f++) {
+        if (strncmp(f->name, "__", 2) == 0) {
+            fprintf(w->stubs, "---@operator %s(venule.Domain): venule.Domain\n",
+                    strcmp(f->name, "__mul") == 0 ? "mul" : f->name + 2);
+        }
+    }
+    write_class_fields(w, class);
+    fprintf(w->stubs, "local %c%s = {}\n\n", class->name[0] - 'a' + 'A', class->name + 1);
+    write_functions(w, class->methods, name + strlen("venule."), ':');
+}
+
+// The systems of lua/venule/ give their functions and rows as a table: see lua/venule/reference.lua.
+static void write_lua_part(writer *w, lua_State *L, const char *field, FILE *file) {
+    (void)w;
+    lua_getfield(L, -1, field);
+    fputs(lua_tostring(L, -1), file);
+    lua_pop(L, 1);
+}
+
+static void write_all(writer *w, lua_State *L) {
+    static const vnl_class *const classes[] = {&vnl_domain_class,     &vnl_growth_class,    &vnl_network_class,
+                                               &vnl_attractors_class, &vnl_influence_class, &vnl_canvas_class,
+                                               &vnl_rng_class};
+    fputs("---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
+          "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}}\n\n"
+          "---@class venule.Bounds\n---@field min number[]\n---@field max number[]\n---@field unit? string\n\n"
+          "---@class venule.Measures\n---@field nodes integer\n---@field roots integer\n---@field tips integer\n"
+          "---@field bifurcations integer\n---@field joins integer\n---@field depth integer\n---@field length number\n"
+          "---@field min_radius number\n---@field max_radius number\n---@field extent venule.Bounds\n\n",
+          w->stubs);
+    fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options marked *required* "
+          "must be given; an option without a default may be left out. Indices count from 1, angles are degrees, y points "
+          "up.\n\n```lua\nlocal venule = require \"venule\"\n```\n\n## venule\n",
+          w->page);
+    write_functions(w, vnl_network_functions, "venule", '.');
+    write_functions(w, vnl_attractors_functions, "venule", '.');
+    write_functions(w, vnl_canvas_functions, "venule", '.');
+    write_functions(w, vnl_module_functions, "venule", '.');
+    write_lua_part(w, L, "stubs", w->stubs);
+    write_lua_part(w, L, "page", w->page);
+    fputs("\n## venule.domain\n", w->page);
+    write_functions(w, vnl_domain_functions, "venule.domain", '.');
+    fputs("\n## venule.growth\n", w->page);
+    write_functions(w, vnl_growth_functions, "venule.growth", '.');
+    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
+        write_class(w, classes[i]);
+    }
+    fputs("return venule\n", w->stubs);
+}
+
+int main(int argc, char **argv) {
+    if (argc != 3) {
+        fprintf(stderr, "venule_reference STUBS.lua PAGE.md\n");
+        return 2;
+    }
+    lua_State *L = luaL_newstate();
+    luaL_openlibs(L);
+    luaL_requiref(L, "venule", luaopen_venule, 0);
+    if (luaL_dostring(L, "return require 'venule.reference'") != LUA_OK) {
+        fprintf(stderr, "venule_reference: %s\n", lua_tostring(L, -1));
+        return 1;
+    }
+    writer w = {fopen(argv[1], "w"), fopen(argv[2], "w"), 0};
+    if (w.stubs == NULL || w.page == NULL) {
+        perror("venule_reference");
+        return 4;
+    }
+    write_all(&w, L);
+    bool failed = fclose(w.stubs) != 0 || fclose(w.page) != 0;
+    lua_close(L);
+    return failed || w.missing > 0;
+}

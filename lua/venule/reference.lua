@@ -1,0 +1,73 @@
+-- What the reference page and the editor stubs say of the functions that are written in Lua.
+local venule = ...
+
+local functions = {
+  {name = "param", owner = "venule", arguments = "rows", types = {rows = "table[]"}, returns = "table", doc =
+    'Declare the script\'s parameters and get their values: rows {"name", default, min=, max=, choices=, unit=, help=, file=}. '
+    .. "`--set name=value` changes one; `seed` is always there."},
+  {name = "frame", owner = "venule", arguments = "fraction", types = {["fraction?"] = "number"}, doc =
+    "Call once a step: shows progress on a terminal, and meets Ctrl-C and the limits."},
+  {name = "note", owner = "venule", arguments = "text", types = {text = "string"}, doc =
+    "Say something about the run that the user should know, on stderr."},
+  {name = "result", owner = "venule", arguments = "options", types = {options = "venule.result.Options"}, rows = "result", doc =
+    "Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); "
+    .. "without one, a file called after the script."},
+  {name = "venation", owner = "venule", arguments = "options", types = {options = "venule.venation.Options"}, rows = "venation",
+    returns = "venule.Venation", doc =
+    "Open leaf venation (Runions §3), ready to grow: `s:step()` (false when done), `s:run{progress=}`, `s.network`, "
+    .. "`s.attractors`. The loop is plain Lua in lua/venule/venation.lua; copy it when an option is not enough."},
+}
+
+local function range_of(row)
+  if row.above then return ("above %g"):format(row.above) end
+  if row.min and row.max then return ("%g to %g"):format(row.min, row.max) end
+  return row.min and ("%g or more"):format(row.min) or ""
+end
+
+local function type_of(row)
+  if row.choices then return '"' .. table.concat(row.choices, '"|"') .. '"' end
+  local name = row.type or math.type(row[2]) and "number" or type(row[2])
+  return name == "userdata" and "any" or name
+end
+
+local stubs, page = {}, {}
+
+local function write_rows(name, rows)
+  stubs[#stubs + 1] = ("---@class (exact) venule.%s.Options\n"):format(name)
+  page[#page + 1] = "\n| option | type | default | range | unit | |\n|---|---|---|---|---|---|\n"
+  for _, row in ipairs(rows) do
+    local default = row[2] == nil and "" or (type(row[2]) == "string" and '"%s"' or "%s"):format(tostring(row[2]))
+    stubs[#stubs + 1] = ("---@field %s%s %s # %s\n"):format(row[1], row.required and "" or "?", type_of(row), row.doc)
+    page[#page + 1] = ("| `%s` | %s | %s | %s | %s | %s |\n"):format(row[1], (type_of(row):gsub("|", " or ")),
+      row.required and "required" or default, range_of(row), row.unit or "", row.doc)
+  end
+  stubs[#stubs + 1] = "\n"
+end
+
+for _, f in ipairs(functions) do
+  page[#page + 1] = ("\n### `venule.%s%s`\n\n%s\n"):format(f.name, f.rows and "{…}" or "(" .. f.arguments .. ")", f.doc)
+  if f.rows then write_rows(f.rows, venule[f.rows .. "_rows"]) end
+  stubs[#stubs + 1] = "---" .. f.doc .. "\n"
+  for name, kind in pairs(f.types) do stubs[#stubs + 1] = ("---@param %s %s\n"):format(name, kind) end
+  if f.returns then stubs[#stubs + 1] = "---@return " .. f.returns .. "\n" end
+  stubs[#stubs + 1] = ("function venule.%s(%s) end\n\n"):format(f.name, f.arguments)
+end
+
+stubs[#stubs + 1] = [[
+---@class venule.Venation
+---@field network venule.Network
+---@field attractors venule.Attractors
+local Venation = {}
+
+---Grow by one step; false when done.
+---@return boolean
+function Venation:step() end
+
+---Grow to the end.
+---@param options? {progress?: fun(system: venule.Venation)}
+---@return venule.Venation
+function Venation:run(options) end
+
+]]
+
+return {stubs = table.concat(stubs), page = table.concat(page)}

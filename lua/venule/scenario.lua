@@ -1,0 +1,229 @@
+-- What a script and the program say to one another: parameters in, progress on the way, results out. From stock Lua there
+-- is no program: parameters have their defaults, and results go to files called after the script.
+local venule, host, set_manifest = ...
+
+local options = require "venule.options"
+host = host or {set = {}, outputs = {}, script = arg and arg[0]}
+
+local scenario = {}
+local parameters, parameter_rows = {}, {}
+
+local row_fields = {
+  {"min", nil, type = "number"}, {"max", nil, type = "number"}, {"choices", nil, type = "table"},
+  {"unit", nil, type = "string"}, {"help", nil, type = "string"}, {"file", nil, type = "boolean"},
+}
+
+local function fail_usage(message)
+  if host.fail_usage then host.fail_usage(message) end
+  error(message, 0)
+end
+
+local function read_row(row)
+  if type(row) ~= "table" or type(row[1]) ~= "string" or row[2] == nil then
+    error('param: a row is {"name", default, min=, max=, choices=, unit=, help=, file=}', 3)
+  end
+  local named = {}
+  for key, value in pairs(row) do
+    if key ~= 1 and key ~= 2 then named[key] = value end
+  end
+  local read = options.read("param." .. row[1], row_fields, named, 3)
+  read[1], read[2], read.doc = row[1], row[2], read.help
+  local complaint = options.complaint("param." .. row[1], read, row[2])
+  if complaint then error(complaint .. " (its own default)", 3) end
+  return read
+end
+
+local from_text = {
+  string = function(text) return text end,
+  number = function(text) return tonumber(text) end,
+  boolean = function(text) return ({["true"] = true, ["false"] = false})[text] end,
+}
+
+-- A value of --set NAME=VALUE is of the type of the parameter's default.
+local function value_from(row, given)
+  local default = row[2]
+  local value = given
+  if type(given) == "string" then value = from_text[type(default)](given) end
+  local what = "--set " .. row[1]
+  if value == nil or type(value) ~= type(default) then
+    fail_usage(('%s=%s: %s expected%s'):format(what, tostring(given), type(default), row.doc and ": " .. row.doc or ""))
+  end
+  if math.type(default) == "integer" and math.type(value) == "float" then
+    value = math.tointeger(value) or value -- 5.0 means 5; 0.5 where 1 is the default is still a length
+  end
+  local complaint = options.complaint(what, row, value)
+  if complaint then fail_usage(complaint) end
+  return value
+end
+
+local function check_names(rows)
+  local names, known = {}, {}
+  for i, row in ipairs(rows) do names[i], known[row[1]] = row[1], true end
+  for name in pairs(host.set) do
+    if not known[name] then
+      fail_usage(('--set %s: this script has no such parameter%s'):format(name, options.suggestion(name, names)))
+    end
+  end
+end
+
+local strict = {
+  __index = function(_, key)
+    local names = {}
+    for i, row in ipairs(parameter_rows) do names[i] = row[1] end
+    error(('param: no parameter "%s"%s'):format(tostring(key), options.suggestion(tostring(key), names)), 2)
+  end,
+}
+
+--- Declare the script's parameters; a table of their values. `seed` is always there.
+function scenario.param(rows)
+  local read, has_seed = {}, false
+  if type(rows) ~= "table" then error("param: a table of rows expected, got " .. type(rows), 2) end
+  for i, row in ipairs(rows) do
+    read[i] = read_row(row)
+    has_seed = has_seed or row[1] == "seed"
+  end
+  if not has_seed then
+    read[#read + 1] = {"seed", 1, type = "integer", doc = "which of all the pictures", help = "which of all the pictures"}
+  end
+  if host.help then host.show_help(read) end
+  check_names(read)
+  parameter_rows, parameters = read, {}
+  for _, row in ipairs(read) do
+    local given = host.set[row[1]]
+    if given == nil then parameters[row[1]] = row[2] else parameters[row[1]] = value_from(row, given) end
+  end
+  local shown = {}
+  for name, value in pairs(parameters) do shown[name] = value end
+  return setmetatable(shown, strict)
+end
+
+--- Call once a step: shows progress, meets Ctrl-C and the limits. `fraction` (0 to 1) says how much is done.
+function scenario.frame(fraction)
+  if host.help then host.show_help({}) end
+  if host.frame then host.frame(fraction) end
+end
+
+--- Say something about the run that the user should know, on stderr.
+function scenario.note(text)
+  if host.note then host.note(text) elseif io then io.stderr:write("note: ", text, "\n") end
+end
+
+local function as_json(value)
+  if type(value) == "string" then
+    return '"' .. value:gsub('[%c"\\]', function(c)
+      return (c == '"' or c == "\\") and "\\" .. c or ("\\u%04x"):format(c:byte())
+    end) .. '"'
+  elseif math.type(value) == "float" then
+    if value ~= value or value == math.huge or value == -math.huge then return "null" end
+    local short = ("%.15g"):format(value)
+    return ((tonumber(short) == value) and short or ("%.17g"):format(value)):gsub(",", ".") .. ""
+  elseif type(value) ~= "table" then
+    return tostring(value)
+  end
+  local keys, parts = {}, {}
+  for key in pairs(value) do keys[#keys + 1] = key end
+  table.sort(keys)
+  for i, key in ipairs(keys) do parts[i] = as_json(key) .. ": " .. as_json(value[key]) end
+  return "{" .. table.concat(parts, ", ") .. "}"
+end
+
+local function file_name(path)
+  return path and path:match("[^/]+$") or nil
+end
+
+--- How the results were made: version, script and its hash, parameters. No clock, no machine: the same run, the same bytes.
+local function manifest()
+  return as_json {
+    venule = venule.version,
+    script = file_name(host.script),
+    script_sha256 = host.script_sha256,
+    parameters = parameters,
+    seed = parameters.seed,
+  }
+end
+set_manifest(manifest)
+
+local result_rows = {
+  {"network", nil, type = "any", doc = "the network that grew"},
+  {"networks", nil, type = "table", doc = "several networks by name"},
+  {"picture", nil, type = "any", doc = "a canvas, or function(canvas) … end that draws on one"},
+  {"width", nil, type = "number", above = 0, unit = "pixels", doc = "of the canvas that picture is given"},
+  {"height", nil, type = "number", above = 0, unit = "pixels", doc = "of the canvas that picture is given"},
+  {"view", nil, type = "any", doc = "bounds of what it shows; left out: those of the networks"},
+  {"background", nil, type = "string", doc = "of the canvas that picture is given"},
+  {"unit", nil, type = "string", doc = "length unit of the view"},
+}
+
+local function networks_of(r)
+  return r.networks or r.network and {r.network} or {}
+end
+
+local function extent_of(networks)
+  local min, max
+  for _, network in pairs(networks) do
+    local extent = network:measure().extent
+    min = min and {math.min(min[1], extent.min[1]), math.min(min[2], extent.min[2])} or extent.min
+    max = max and {math.max(max[1], extent.max[1]), math.max(max[2], extent.max[2])} or extent.max
+  end
+  return min and {min = min, max = max}
+end
+
+local function draw(r)
+  if type(r.picture) == "userdata" then return r.picture end
+  local canvas = venule.canvas {
+    width = r.width, height = r.height, view = r.view or extent_of(networks_of(r)), background = r.background, unit = r.unit,
+  }
+  if r.picture then
+    r.picture(canvas)
+  else
+    for _, network in pairs(networks_of(r)) do canvas:stroke(network) end
+  end
+  return canvas
+end
+
+local pictures = {png = true, svg = true, pdf = true}
+
+local function default_outputs(r)
+  local stem = (file_name(host.script) or "venule"):gsub("%.lua$", "")
+  return {stem .. (r.picture and ".png" or ".json")}
+end
+
+local function save_networks(r, path)
+  if not r.network and not r.networks then
+    fail_usage(("-o %s: the script gives no network to save"):format(path))
+  end
+  venule.save(path, r.network or r.networks)
+end
+
+local function summary(r)
+  local total = {nodes = 0, tips = 0, length = 0}
+  for _, network in pairs(networks_of(r)) do
+    local measures = network:measure()
+    for key in pairs(total) do total[key] = total[key] + measures[key] end
+  end
+  return total
+end
+
+--- Hand over the results: each -o is written by its extension; without one, a file called after the script.
+function scenario.result(given)
+  local r = options.read("result", result_rows, given, 2)
+  if host.help then host.show_help({}) end
+  local outputs = #host.outputs > 0 and host.outputs or default_outputs(r)
+  local canvas
+  for _, path in ipairs(outputs) do
+    local extension = (path:match("%.(%w+)$") or ""):lower()
+    if pictures[extension] then
+      canvas = canvas or draw(r)
+      canvas:save(path)
+    elseif extension == "json" then
+      save_networks(r, path)
+    else
+      fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
+    end
+  end
+  if host.finish then host.finish(outputs, summary(r)) end
+end
+
+scenario.result_rows = result_rows
+
+return scenario
