@@ -26,3 +26,11 @@ vn_status vn_array_grow(void *data_slot, int32_t *capacity, int64_t need, size_t
     *capacity = (int32_t)wanted;
     return VN_OK;
 }
+
+void vn_array_shrink(void *data_slot, int32_t *capacity, int32_t count, size_t element_size) {
+    void *data;
+    memcpy(&data, data_slot, sizeof data);
+    data = vn_resize(data, (size_t)*capacity * element_size, (size_t)count * element_size);
+    memcpy(data_slot, &data, sizeof data);
+    *capacity = count;
+}

@@ -29,6 +29,9 @@
     ((void)vn_resize((array)->data, (size_t)(array)->capacity * sizeof *(array)->data, 0),                   \
      (array)->data = NULL, (array)->count = 0, (array)->capacity = 0)
 
+/// Give back the room that is not in use.
+#define vn_array_trim(array) vn_array_shrink(&(array)->data, &(array)->capacity, (array)->count, sizeof *(array)->data)
+
 /// Set every element's room to @p need elements with value zero: count becomes @p need.
 #define vn_array_zero(array, need)                                                                           \
     (vn_array_reserve((array), (need)) == VN_OK                                                              \
@@ -39,5 +42,8 @@
 
 /// What vn_array_reserve() calls: @p data_slot is the address of the array's data pointer.
 vn_status vn_array_grow(void *data_slot, int32_t *capacity, int64_t need, size_t element_size);
+
+/// What vn_array_trim() calls.
+void vn_array_shrink(void *data_slot, int32_t *capacity, int32_t count, size_t element_size);
 
 #endif

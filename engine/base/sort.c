@@ -1,6 +1,6 @@
 #include "base/sort.h"
 
-enum { DIGIT_BITS = 11, BUCKETS = 1 << DIGIT_BITS, DIGITS = (64 + DIGIT_BITS - 1) / DIGIT_BITS };
+enum { DIGIT_BITS = 8, BUCKETS = 1 << DIGIT_BITS, DIGITS = (64 + DIGIT_BITS - 1) / DIGIT_BITS };
 
 static uint32_t digit_of(uint64_t key, int digit) {
     return (uint32_t)(key >> (digit * DIGIT_BITS)) & (BUCKETS - 1);
@@ -29,13 +29,19 @@ static void scatter(const vn_keyed *from, vn_keyed *to, int32_t count, int digit
     }
 }
 
-// Digits that all keys share are passed over, so that small keys cost two passes and not six.
-static bool count_digit(const vn_keyed *items, int32_t count, int digit, int32_t *sizes) {
+static void count_digit(const vn_keyed *items, int32_t count, int digit, int32_t *sizes) {
     memset(sizes, 0, BUCKETS * sizeof *sizes);
     for (int32_t i = 0; i < count; i++) {
         sizes[digit_of(items[i].key, digit)]++;
     }
-    return sizes[digit_of(items[0].key, digit)] < count;
+}
+
+static uint64_t bits_that_differ(const vn_keyed *items, int32_t count) {
+    uint64_t bits = 0;
+    for (int32_t i = 1; i < count; i++) {
+        bits |= items[i].key ^ items[0].key;
+    }
+    return bits;
 }
 
 vn_status vn_sort_keyed(vn_keyed_array *array, vn_keyed_array *scratch) {
@@ -46,14 +52,17 @@ vn_status vn_sort_keyed(vn_keyed_array *array, vn_keyed_array *scratch) {
     VN_TRY(vn_array_reserve(scratch, array->count));
     vn_keyed *from = array->data;
     vn_keyed *to = scratch->data;
-    int32_t starts[BUCKETS];
+    uint64_t differ = bits_that_differ(from, array->count);
     for (int digit = 0; digit < DIGITS; digit++) {
-        if (count_digit(from, array->count, digit, starts)) {
-            scatter(from, to, array->count, digit, starts);
-            vn_keyed *swap = from;
-            from = to;
-            to = swap;
+        if (digit_of(differ, digit) == 0) {
+            continue; // all keys share this digit
         }
+        int32_t starts[BUCKETS];
+        count_digit(from, array->count, digit, starts);
+        scatter(from, to, array->count, digit, starts);
+        vn_keyed *swap = from;
+        from = to;
+        to = swap;
     }
     if (from != array->data) {
         memcpy(array->data, from, (size_t)array->count * sizeof *from);

@@ -42,6 +42,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->idle);
     vn_reach_tree_free(&a->tree);
     vn_array_free(&a->hits);
+    vn_array_free(&a->nodes);
     vn_array_free(&a->active);
     vn_array_free(&a->activated);
     vn_array_free(&a->scratch);
@@ -71,6 +72,22 @@ static void set_count(vn_attractors *a, int32_t count) {
     a->x.count = a->y.count = a->near2.count = a->node.count = count;
     a->id.count = a->best.count = a->idle.count = count;
     a->z.count = a->dim == 3 ? count : 0;
+}
+
+vn_status vn_attractors_expect(vn_attractors *a, int64_t more) {
+    return reserve(a, a->x.count + more);
+}
+
+static void trim(vn_attractors *a) {
+    vn_array_trim(&a->x);
+    vn_array_trim(&a->y);
+    vn_array_trim(&a->z);
+    vn_array_trim(&a->near2);
+    vn_array_trim(&a->node);
+    vn_array_trim(&a->id);
+    vn_array_trim(&a->best);
+    vn_array_trim(&a->idle);
+    vn_array_trim(&a->active);
 }
 
 vn_status vn_attractors_add(vn_attractors *a, const double p[3]) {
@@ -156,10 +173,11 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
     a->gone = 0;
     a->attractors_seen = seen;
     a->tree_count = 0;
-    a->tree.levels = 0;
+    vn_reach_tree_free(&a->tree);
     vn_point_grid_free(&a->grid);
     a->grid.cell = 0;
     a->version++;
+    trim(a);
     return VN_OK;
 }
 

@@ -31,10 +31,10 @@ struct vn_attractors {
     VN_ARRAY(double) y;
     VN_ARRAY(double) z;       ///< 3D only
     VN_ARRAY(double) near2;   ///< squared distance of `node`, or of the reach while there is none; negative: gone
-    VN_ARRAY(int32_t) node;   ///< the nearest, or the nearest that sees it (HIDDEN); -1: none within reach
+    VN_ARRAY(int32_t) node;   ///< the nearest, or the nearest that sees it (VN_HIDDEN); -1: none within reach
     VN_ARRAY(uint32_t) id;    ///< by birth; what ties are hashed by
     VN_ARRAY(float) best;     ///< the distance from which progress is counted
-    VN_ARRAY(uint8_t) idle;   ///< steps without progress, and the flag HIDDEN
+    VN_ARRAY(uint8_t) idle;   ///< how patient it still is: see VN_HIDDEN
     int32_t gone;
     uint32_t born;
     uint64_t version;
@@ -47,6 +47,7 @@ struct vn_attractors {
     vn_reach_tree tree;
     int32_t tree_count; ///< attractors from here on are not in the tree yet
     vn_reach_hits hits; ///< working memory
+    vn_keyed_array nodes;
 
     VN_ARRAY(int32_t) active;    ///< those that have a node, ascending; gone ones are dropped when it is next read
     vn_keyed_array activated;    ///< those that got their first node since
@@ -66,7 +67,8 @@ struct vn_attractors {
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last
 };
 
-enum { VN_HIDDEN = 0x80, VN_IDLE = 0x7F };
+/// The bits of `idle`: whether the border hid its nearest node, how often it turned to another one, steps without progress.
+enum { VN_HIDDEN = 0x80, VN_TURN = 0x20, VN_TURNS = 0x60, VN_IDLE = 0x1F };
 
 static inline vn_points vn_attractors_points(const vn_attractors *a) {
     return (vn_points){a->x.data, a->y.data, a->dim == 3 ? a->z.data : NULL};
@@ -78,6 +80,9 @@ static inline bool vn_is_gone(const vn_attractors *a, int32_t i) {
 
 /// Take attractor @p i out; its place stays until vn_attractors_tidy().
 void vn_attractors_remove(vn_attractors *a, int32_t i);
+
+/// Make room for so many more at once, when it is known that all will come.
+vn_status vn_attractors_expect(vn_attractors *a, int64_t more);
 
 /// Close the gaps when they are more than half. What holds internal numbers must not be in use.
 vn_status vn_attractors_tidy(vn_attractors *a);

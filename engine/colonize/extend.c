@@ -142,13 +142,15 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
     vn_nearest query = {.reach2 = a->reach2, .seed = a->seed, .id = a->id.data[attractor],
                         .accept = sees_and_may_grow, .payload = &s};
     vn_point_grid_nearest(grid, &nodes, s.at, &query);
-    if (query.point < 0) {
+    bool tired = (a->idle.data[attractor] & VN_TURNS) == VN_TURNS; // or two veins might pass it to and fro for ever
+    if (query.point < 0 || tired) {
         a->retired.hidden++;
         vn_attractors_remove(a, attractor);
         return VN_OK;
     }
     remember_sight(a, e->def->domain);
-    a->idle.data[attractor] |= VN_HIDDEN;
+    a->idle.data[attractor] = (uint8_t)((a->idle.data[attractor] | VN_HIDDEN) + VN_TURN);
+    a->best.data[attractor] = INFINITY;
     a->node.data[attractor] = query.point;
     a->near2.data[attractor] = query.reach2;
     vn_reach_tree_raise(&a->tree, s.at, query.reach2);
@@ -169,7 +171,7 @@ static void lose_patience(const extension *e) {
         }
         if (distance < (double)a->best.data[i] - 1e-3 * e->def->length) {
             a->best.data[i] = (float)distance;
-            a->idle.data[i] &= VN_HIDDEN;
+            a->idle.data[i] &= VN_HIDDEN | VN_TURNS;
         } else if ((++a->idle.data[i] & VN_IDLE) > PATIENCE) {
             a->retired.circled++;
             vn_attractors_remove(a, i);

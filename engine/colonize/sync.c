@@ -101,13 +101,38 @@ static vn_status renew_tree(vn_attractors *a) {
     return VN_OK;
 }
 
-static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {
-    if (begin < network->x.count && seen > 0) {
-        VN_TRY(renew_tree(a));
+// Along the curve that the tree is built on: neighbours then ask the same packs while these are in the cache.
+static vn_status sort_nodes(vn_attractors *a, const vn_network *network, int32_t begin) {
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    vn_keyed_array *keys = &a->nodes;
+    VN_TRY(vn_array_reserve(keys, network->x.count - begin));
+    keys->count = network->x.count - begin;
+    for (int32_t i = begin; i < network->x.count; i++) {
+        double p[3];
+        vn_network_position(network, i, p);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], p[k]);
+            high[k] = fmax(high[k], p[k]);
+        }
     }
-    for (int32_t node = begin; seen > 0 && node < network->x.count; node++) {
-        VN_TRY(show_node(a, network, node, seen));
-        if (node % 4096 == 4095) {
+    double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+    for (int32_t i = 0; i < keys->count; i++) {
+        double p[3];
+        vn_network_position(network, begin + i, p);
+        keys->data[i] = (vn_keyed){vn_morton(p, a->dim, low, size) >> 20, begin + i};
+    }
+    return vn_sort_keyed(keys, &a->scratch);
+}
+
+static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {
+    if (begin >= network->x.count || seen == 0) {
+        return VN_OK;
+    }
+    VN_TRY(renew_tree(a));
+    VN_TRY(sort_nodes(a, network, begin));
+    for (int32_t k = 0; k < a->nodes.count; k++) {
+        VN_TRY(show_node(a, network, a->nodes.data[k].value, seen));
+        if (k % 4096 == 4095) {
             VN_TRY(vn_poll());
         }
     }

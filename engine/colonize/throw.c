@@ -107,7 +107,8 @@ static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t 
     volley v = {.domain = def->domain, .rng = vn_rng_fork(def->rng)};
     v.at = vn_resize(NULL, 0, (size_t)room * sizeof *v.at);
     v.missed = vn_resize(NULL, 0, (size_t)room);
-    vn_status status = VN_OK;
+    bool all_stick = def->spacing <= 0 && def->clearance <= 0;
+    vn_status status = all_stick ? vn_attractors_expect(a, darts) : VN_OK;
     if (room > 0 && (v.at == NULL || v.missed == NULL)) {
         status = vn_fail_memory("darts", (size_t)room * sizeof *v.at);
     }

@@ -129,7 +129,7 @@ static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
 
 static vn_status check_outline(const vn_growth *growth) {
     vn_rings rings = {0};
-    vn_status status = vn_domain_outline(growth->shape, 256, &rings);
+    vn_status status = vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings);
     status = status == VN_OK ? check_star(growth, &rings) : status;
     vn_rings_free(&rings);
     return status;

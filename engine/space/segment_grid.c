@@ -26,11 +26,17 @@ static cell_range range_of(const vn_segment_grid *grid, double min_x, double min
     };
 }
 
+static double size_of(const vn_segment_grid *grid) {
+    return grid->cell * (grid->columns > grid->rows ? grid->columns : grid->rows);
+}
+
 // The cells of the columns [range.x0, range.x1] that the segment passes: per column the span of y, one cell wider on
 // either side than arithmetic can err.
 static cell_range column_range(const vn_segment_grid *grid, const vn_segment *s, int32_t column) {
-    double left = grid->min_x + column * grid->cell;
-    double right = left + grid->cell;
+    // An edge that is all but upright turns a rounding of its column's sides into any length along it.
+    double slack = 1e-9 * grid->cell + 1e-15 * (fabs(grid->min_x) + fabs(grid->min_y) + size_of(grid));
+    double left = grid->min_x + column * grid->cell - slack;
+    double right = grid->min_x + (column + 1) * grid->cell + slack;
     double dx = s->x1 - s->x0;
     double t0 = dx != 0 ? (left - s->x0) / dx : 0;
     double t1 = dx != 0 ? (right - s->x0) / dx : 1;
@@ -38,7 +44,6 @@ static cell_range column_range(const vn_segment_grid *grid, const vn_segment *s,
     double b = fmin(fmax(fmax(t0, t1), 0), 1);
     double ya = s->y0 + a * (s->y1 - s->y0);
     double yb = s->y0 + b * (s->y1 - s->y0);
-    double slack = 1e-9 * grid->cell;
     cell_range range = range_of(grid, left, fmin(ya, yb) - slack, right, fmax(ya, yb) + slack);
     range.x0 = range.x1 = column;
     return range;

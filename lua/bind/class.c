@@ -11,6 +11,7 @@ static void push_metatable_name(lua_State *L, const vnl_class *class) {
 }
 
 static void **box_at(lua_State *L, int index, const vnl_class *class) {
+    index = lua_absindex(L, index);
     push_metatable_name(L, class);
     void **box = luaL_testudata(L, index, lua_tostring(L, -1));
     lua_pop(L, 1);

@@ -156,8 +156,9 @@ static int make_profile(lua_State *L) {
 
 static int make_svg(lua_State *L) {
     vn_svg_def def;
-    const char *path = luaL_checkstring(L, 1);
+    lua_settop(L, 2);
     vnl_read_options(L, 2, &vn_svg_schema, &def);
+    const char *path = vnl_push_path(L, 1);
     void **box = vnl_push_box(L, &vnl_domain_class);
     vnl_try(L, vn_domain_svg((vn_domain **)box, path, &def));
     return 1;

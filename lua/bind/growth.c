@@ -18,7 +18,7 @@ static int make(lua_State *L, const vn_schema *schema, make_fn *engine_make) {
     void **box = vnl_push_box(L, &vnl_growth_class);
     vnl_try(L, engine_make((vn_growth **)box, &def));
     lua_pushvalue(L, -1);
-    lua_setfield(L, LUA_REGISTRYINDEX, "venule.growth"); // what progress is shown of
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.latest.growth"); // what progress is shown of
     return 1;
 }
 

@@ -3,6 +3,7 @@
 #include "bind/embedded.h"
 
 #include <string.h>
+#include <unistd.h>
 
 extern const vnl_function vnl_network_functions[];
 extern const vnl_function vnl_attractors_functions[];
@@ -66,6 +67,18 @@ const char *vnl_push_manifest(lua_State *L) {
     }
     lua_call(L, 0, 1);
     return lua_tostring(L, -1);
+}
+
+const char *vnl_push_path(lua_State *L, int index) {
+    const char *path = luaL_checkstring(L, index);
+    lua_pushvalue(L, index);
+    if (path[0] != '/' && lua_getfield(L, LUA_REGISTRYINDEX, "venule.folder") == LUA_TSTRING) {
+        const char *beside = lua_pushfstring(L, "%s/%s", lua_tostring(L, -1), path);
+        if (access(beside, R_OK) == 0) {
+            return beside;
+        }
+    }
+    return path;
 }
 
 static int set_manifest(lua_State *L) {

@@ -37,7 +37,7 @@ static int make_network(lua_State *L) {
     }
     lua_pop(L, 1);
     lua_pushvalue(L, -1);
-    lua_setfield(L, LUA_REGISTRYINDEX, "venule.network.latest"); // what progress is shown of
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.latest.network"); // what progress is shown of
     return 1;
 }
 
@@ -299,7 +299,7 @@ const vnl_class vnl_network_class = {
 };
 
 static int load_networks(lua_State *L) {
-    const char *path = luaL_checkstring(L, 1);
+    const char *path = vnl_push_path(L, 1);
     vn_network_set set;
     vnl_try(L, vn_networks_load(&set, path));
     // The set is handed over piece by piece; should Lua run out of memory here, its remains are lost to the process's end.

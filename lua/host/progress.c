@@ -13,7 +13,7 @@ static double now(void) {
 }
 
 static double growth_fraction(lua_State *L) {
-    lua_getfield(L, LUA_REGISTRYINDEX, "venule.growth");
+    lua_getfield(L, LUA_REGISTRYINDEX, "venule.latest.growth");
     const vn_growth *growth = vnl_test(L, -1, &vnl_growth_class);
     lua_pop(L, 1);
     double whole = growth != NULL ? vn_growth_final_length(growth) : 0;
@@ -21,7 +21,7 @@ static double growth_fraction(lua_State *L) {
 }
 
 static int32_t latest_nodes(lua_State *L) {
-    lua_getfield(L, LUA_REGISTRYINDEX, "venule.network.latest");
+    lua_getfield(L, LUA_REGISTRYINDEX, "venule.latest.network");
     const vn_network *network = vnl_test(L, -1, &vnl_network_class);
     lua_pop(L, 1);
     return network != NULL ? vn_network_count(network) : 0;

@@ -93,6 +93,8 @@ static void set_searchers(lua_State *L, const char *script, bool trust) {
     lua_getfield(L, -1, "searchers");
     int searchers = lua_gettop(L);
     push_folder(L, script);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.folder");
     lua_pushcclosure(L, search_beside, 1);
     if (trust) { // after the preloaded ones, before Lua's own paths
         for (lua_Integer i = luaL_len(L, searchers); i >= 2; i--) {
