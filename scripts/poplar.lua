@@ -4,11 +4,11 @@ local venule = require "venule"
 
 local p = venule.param {
   {"outline", "outlines/poplar.svg", file = true, help = "SVG file with the shape of the blade"},
-  {"birth_distance", 10, min = 1, max = 200, help = "a new source keeps this far from veins and other sources"},
-  {"kill_distance", 5, min = 1, max = 200, help = "a vein this close consumes its source"},
-  {"darts", 600e-6, min = 1e-6, max = 0.1, unit = "darts/length²", help = "sources that are tried per area"},
+  {"birth_distance", 14, min = 1, max = 200, help = "a new source keeps this far from veins and other sources"},
+  {"kill_distance", 3, min = 1, max = 200, help = "a vein this close consumes its source"},
+  {"darts", 3000e-6, min = 1e-6, max = 0.1, unit = "darts/length²", help = "sources that are tried per area"},
   {"from", 270, min = 1, max = 1600, help = "length of the blade at first"},
-  {"growth", 8, min = 0.5, max = 100, help = "length that a step adds to it"},
+  {"growth", 16, min = 0.5, max = 100, help = "length that a step adds to it"},
   {"width", 900, min = 50, max = 8000, unit = "pixels", help = "of the picture"},
 }
 

@@ -49,6 +49,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->fresh);
     vn_array_free(&a->present);
     vn_array_free(&a->dormant);
+    vn_array_free(&a->waiting);
     vn_point_grid_free(&a->grid);
     vn_domain_release(a->sight);
     vn_domain_release(a->margin);
@@ -155,6 +156,7 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
     int32_t kept = 0, seen = 0;
     VN_TRY(vn_array_reserve(&a->active, a->x.count - a->gone));
     a->active.count = 0;
+    a->waiting.count = 0;
     a->activated.count = 0;
     a->fresh_all = a->fresh_all || a->fresh.count > 0;
     a->fresh.count = 0;
@@ -166,6 +168,8 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
         seen += i < a->attractors_seen;
         if (a->node.data[kept] >= 0) {
             a->active.data[a->active.count++] = kept;
+        } else if (a->idle.data[kept] & VN_HIDDEN) {
+            a->waiting.data[a->waiting.count++] = kept;
         }
         kept++;
     }

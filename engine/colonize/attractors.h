@@ -62,6 +62,8 @@ struct vn_attractors {
 
     double carry;                ///< the fraction of a dart that is still to be thrown
     vn_domain *sight;            ///< what hides nodes from attractors
+    VN_ARRAY(int32_t) waiting;   ///< those that no node sees yet
+    int32_t next_look;           ///< the network's step at which they look again
     vn_domain *margin;           ///< what the dormant ones wait for
     double margin_clearance;
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last

@@ -63,6 +63,20 @@ static vn_status consume_fresh(vn_attractors *a, const vn_consume_def *def, int3
     return VN_OK;
 }
 
+// Attractors that wait are shown only nodes that would consume them.
+static void watch_waiting(vn_attractors *a, double distance2) {
+    for (int32_t k = 0; k < a->waiting.count; k++) {
+        int32_t i = a->waiting.data[k];
+        if (!vn_is_gone(a, i) && a->node.data[i] < 0) {
+            double p[3];
+            vn_points points = vn_attractors_points(a);
+            vn_points_get(&points, i, p);
+            a->near2.data[i] = distance2;
+            vn_reach_tree_raise(&a->tree, p, distance2);
+        }
+    }
+}
+
 vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {
     *consumed = 0;
     VN_TRY(vn_check_def(&vn_consume_schema, def));
@@ -79,6 +93,9 @@ vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def
     }
     a->fresh.count = 0;
     a->fresh_all = false;
+    if (a->consumed2 != distance2) {
+        watch_waiting(a, distance2);
+    }
     a->consumed2 = distance2;
     return VN_OK;
 }

@@ -64,9 +64,11 @@ static bool has_child_at(const extension *e, int32_t node, const double p[3]) {
 }
 
 static bool stays_inside(const extension *e, int32_t node, const double p[3]) {
+    const vn_domain *domain = e->def->domain;
     double q[3];
     vn_network_position(e->network, node, q);
-    return e->def->domain == NULL || vn_domain_sees(e->def->domain, q, p);
+    // Sight forgives an end that is on the border: a root may be there, a new node may not be beyond it.
+    return domain == NULL || (vn_domain_contains(domain, p) && vn_domain_sees(domain, q, p));
 }
 
 static bool mean_direction(const extension *e, double n[3]) {
@@ -114,11 +116,17 @@ typedef struct sight {
     const extension *e;
     int32_t attractor;
     double at[3];
+    int32_t tries; ///< nodes that may still be asked
 } sight;
 
-static bool sees_and_may_grow(int32_t node, const void *payload) {
-    const sight *s = payload;
+enum { GLANCE = 64, WHOLE_LOOK = INT32_MAX };
+
+static bool sees_and_may_grow(int32_t node, void *payload) {
+    sight *s = payload;
     double q[3], p[3];
+    if (s->tries-- <= 0) {
+        return false;
+    }
     vn_network_position(s->e->network, node, q);
     return vn_domain_sees(s->e->def->domain, q, s->at) && may_step_to(s->e, node, s->attractor, p);
 }
@@ -130,10 +138,18 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
-// The border is between this attractor and its node: it turns to the nearest node that sees it, which grows at once.
-static vn_status turn_to_another(const extension *e, int32_t attractor) {
+static vn_status step_toward(const extension *e, int32_t node, int32_t attractor) {
+    double n[3], p[3];
+    direction_to(e, node, attractor, n);
+    step_from(e, node, n, p);
+    return vn_network_add(e->network, node, p, NULL);
+}
+
+// The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one among the nearest
+// @p tries.
+static vn_status look_for_sight(const extension *e, int32_t attractor, int32_t tries, bool *found) {
     vn_attractors *a = e->a;
-    sight s = {e, attractor, {0, 0, 0}};
+    sight s = {e, attractor, {0, 0, 0}, tries};
     vn_points points = vn_attractors_points(a);
     vn_points nodes = vn_network_points(e->network);
     const vn_point_grid *grid;
@@ -142,22 +158,74 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
     vn_nearest query = {.reach2 = a->reach2, .seed = a->seed, .id = a->id.data[attractor],
                         .accept = sees_and_may_grow, .payload = &s};
     vn_point_grid_nearest(grid, &nodes, s.at, &query);
-    bool tired = (a->idle.data[attractor] & VN_TURNS) == VN_TURNS; // or two veins might pass it to and fro for ever
-    if (query.point < 0 || tired) {
-        a->retired.hidden++;
-        vn_attractors_remove(a, attractor);
+    *found = query.point >= 0;
+    if (!*found) {
+        return VN_OK;
+    }
+    if (a->node.data[attractor] < 0) {
+        VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)attractor, attractor})));
+    }
+    a->node.data[attractor] = query.point;
+    a->near2.data[attractor] = query.reach2;
+    a->best.data[attractor] = INFINITY;
+    vn_reach_tree_raise(&a->tree, s.at, query.reach2);
+    return step_toward(e, query.point, attractor);
+}
+
+static void retire_hidden(vn_attractors *a, int32_t attractor) {
+    a->retired.hidden++;
+    vn_attractors_remove(a, attractor);
+}
+
+// The border is between this attractor and its node: it turns to the nearest node that sees it, or waits for one.
+static vn_status turn_to_another(const extension *e, int32_t attractor) {
+    vn_attractors *a = e->a;
+    bool found;
+    if ((a->idle.data[attractor] & VN_TURNS) == VN_TURNS) {
+        retire_hidden(a, attractor); // or two veins might pass it to and fro for ever
         return VN_OK;
     }
     remember_sight(a, e->def->domain);
     a->idle.data[attractor] = (uint8_t)((a->idle.data[attractor] | VN_HIDDEN) + VN_TURN);
-    a->best.data[attractor] = INFINITY;
-    a->node.data[attractor] = query.point;
-    a->near2.data[attractor] = query.reach2;
-    vn_reach_tree_raise(&a->tree, s.at, query.reach2);
-    double n[3], p[3];
-    direction_to(e, query.point, attractor, n);
-    step_from(e, query.point, n, p);
-    return vn_network_add(e->network, query.point, p, NULL);
+    VN_TRY(look_for_sight(e, attractor, GLANCE, &found));
+    if (!found) {
+        VN_TRY(vn_array_push(&a->waiting, attractor));
+        a->node.data[attractor] = -1;
+        a->near2.data[attractor] = a->consumed2;
+    }
+    return VN_OK;
+}
+
+// Those that wait look around again: seldom while veins grow elsewhere, and thoroughly when nothing else does. Those that
+// even then no node sees are retired.
+static vn_status look_again(const extension *e, bool last_chance) {
+    vn_attractors *a = e->a;
+    int32_t kept = 0;
+    vn_status status = VN_OK;
+    for (int32_t k = 0; k < a->waiting.count; k++) {
+        int32_t i = a->waiting.data[k];
+        bool found = vn_is_gone(a, i) || a->node.data[i] >= 0;
+        if (!found && status == VN_OK) {
+            status = look_for_sight(e, i, last_chance ? WHOLE_LOOK : GLANCE, &found);
+        }
+        if (!found && last_chance && status == VN_OK) {
+            retire_hidden(a, i);
+        } else if (!found) {
+            a->waiting.data[kept++] = i;
+        }
+        status = status == VN_OK && k % 256 == 255 ? vn_poll() : status;
+    }
+    a->waiting.count = kept;
+    return status;
+}
+
+static vn_status mind_waiting(const extension *e, int32_t first) {
+    bool grew = e->network->x.count > first;
+    if (e->a->waiting.count == 0 || (grew && e->network->step < e->a->next_look)) {
+        return VN_OK;
+    }
+    e->a->next_look = e->network->step + 8 + e->network->step / 16;
+    return look_again(e, !grew);
 }
 
 // An attractor that no vein comes nearer to, however often it pulls, is let go, or some run would never end.
@@ -263,6 +331,7 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     network->step++;
     VN_TRY(group_by_node(influence));
     vn_status status = grow_nodes(&e);
+    status = status == VN_OK && def->domain != NULL ? mind_waiting(&e, *first) : status;
     *added = status == VN_OK ? network->x.count - *first : 0;
     return status;
 }

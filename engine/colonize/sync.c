@@ -23,6 +23,7 @@ static void forget(vn_attractors *a, const vn_network *network, double reach2) {
     a->tree.levels = 0;
     a->active.count = 0;
     a->activated.count = 0;
+    a->waiting.count = 0;
     a->fresh.count = 0;
     a->fresh_all = true;
 }

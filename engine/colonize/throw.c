@@ -52,7 +52,7 @@ static void fly(int64_t begin, int64_t end, void *payload) {
     }
 }
 
-static bool is_present(int32_t i, const void *payload) {
+static bool is_present(int32_t i, void *payload) {
     return !vn_is_gone(payload, i);
 }
 
@@ -179,14 +179,14 @@ static int by_falling_arrival(const void *left, const void *right) {
     return by_x != 0 ? by_x : (a->p[1] > b->p[1]) - (a->p[1] < b->p[1]);
 }
 
-static vn_status keep_dormant(vn_attractors *a, const vn_attractors *sown) {
-    const vn_margin *margin = a->margin->kind->margin;
+static vn_status keep_dormant(vn_attractors *a, const vn_attractors *sown, const vn_domain *domain) {
+    const vn_margin *margin = domain->kind->margin;
     vn_points points = vn_attractors_points(sown);
     a->dormant.count = 0;
     for (int32_t i = 0; i < sown->x.count; i++) {
         vn_dormant dormant;
         vn_points_get(&points, i, dormant.p);
-        dormant.arrival = margin->arrival(a->margin, dormant.p);
+        dormant.arrival = margin->arrival(domain, dormant.p);
         if (isfinite(dormant.arrival)) {
             VN_TRY(vn_array_push(&a->dormant, dormant));
         }
@@ -230,11 +230,13 @@ static vn_status sow(vn_attractors *a, const vn_throw_def *def) {
         status = count_darts(sown, &all, square, &darts);
         status = status == VN_OK ? throw_darts(sown, &all, darts, &accepted) : status;
     }
+    // Until all of them lie in order, the set waits for no margin: a throw that failed can be made again.
+    vn_domain_release(a->margin);
+    a->margin = NULL;
+    status = status == VN_OK ? keep_dormant(a, sown, def->domain) : status;
     if (status == VN_OK) {
-        vn_domain_release(a->margin);
         a->margin = vn_domain_retain(def->domain);
         a->margin_clearance = def->clearance;
-        status = keep_dormant(a, sown);
     }
     vn_attractors_destroy(sown);
     vn_domain_release(all.domain);
@@ -249,14 +251,16 @@ vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
     const vn_point_grid *grid;
     double length = a->margin->kind->margin->length(a->margin);
     VN_TRY(network_grid(network, a->margin_clearance, &grid));
+    int32_t count = 0;
     while (a->dormant.count > 0 && a->dormant.data[a->dormant.count - 1].arrival <= length) {
         const vn_dormant *next = &a->dormant.data[a->dormant.count - 1];
         if (is_clear(network, grid, a->margin_clearance, next->p)) {
             VN_TRY(vn_attractors_add(a, next->p));
-            ++*released;
+            count++;
         }
         a->dormant.count--;
     }
+    *released = count;
     return VN_OK;
 }
 

@@ -1,6 +1,6 @@
 #include "domain/domain.h"
 
-static const vn_profile_def profile_default = {.length = 1};
+static const vn_profile_def profile_default = {.length = 1, .samples = 200};
 
 static const vn_field profile_fields[] = {
     {"length", VN_F64, VN_ABOVE_MIN, offsetof(vn_profile_def, length), 0, 1e150, "length", NULL,

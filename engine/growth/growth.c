@@ -36,15 +36,17 @@ void vn_growth_destroy(vn_domain *domain) {
     vn_domain_release(((vn_growth *)domain)->shape);
 }
 
+// The lowest point; of a flat base, its middle.
 static void lowest_point(const vn_rings *rings, double origin[3]) {
-    int32_t lowest = 0;
-    for (int32_t i = 1; i < rings->y.count; i++) {
-        if (rings->y.data[i] < rings->y.data[lowest]) {
-            lowest = i;
-        }
+    double lowest = INFINITY, left = 0, right = 0;
+    for (int32_t i = 0; i < rings->y.count; i++) {
+        double x = rings->x.data[i], y = rings->y.data[i];
+        left = y < lowest ? x : (y == lowest ? fmin(left, x) : left);
+        right = y < lowest ? x : (y == lowest ? fmax(right, x) : right);
+        lowest = fmin(lowest, y);
     }
-    origin[0] = rings->x.data[lowest];
-    origin[1] = rings->y.data[lowest];
+    origin[0] = 0.5 * (left + right);
+    origin[1] = lowest;
 }
 
 static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
@@ -53,7 +55,7 @@ static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
         return VN_OK;
     }
     vn_rings rings = {0};
-    vn_status status = growth->base.dim == 2 ? vn_domain_outline(growth->shape, 256, &rings) : VN_OK;
+    vn_status status = growth->base.dim == 2 ? vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings) : VN_OK;
     if (rings.y.count > 0) {
         lowest_point(&rings, growth->origin);
     }

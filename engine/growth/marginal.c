@@ -106,17 +106,17 @@ static const vn_domain_kind marginal_kind = {.name = "blade",
                                              .outline = marginal_outline,
                                              .margin = &marginal_margin};
 
-// Every edge must turn left as seen from the origin. An edge that turns back by less than a millionth of the blade is
-// the rounding of whoever drew it.
+// Every edge must turn left as seen from the origin. An edge whose line passes the origin on the wrong side by less than a
+// millionth of the blade is the rounding of whoever drew it.
 static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
-    double tolerance = 1e-6 * growth->own_length * growth->own_length;
+    double tolerance = 1e-6 * growth->own_length;
     const double *o = growth->origin;
     for (int32_t r = 0; r < rings->ends.count; r++) {
         int32_t begin = vn_rings_begin(rings, r), end = rings->ends.data[r];
         for (int32_t i = begin; i < end; i++) {
             int32_t j = i + 1 < end ? i + 1 : begin;
             const double *x = rings->x.data, *y = rings->y.data;
-            if (vn_turn(o[0], o[1], x[i], y[i], x[j], y[j]) < -tolerance) {
+            if (vn_turn(o[0], o[1], x[i], y[i], x[j], y[j]) < -tolerance * hypot(x[j] - x[i], y[j] - y[i])) {
                 return vn_fail(VN_INVALID,
                                "marginal: the blade is not star-shaped about its origin (%g, %g), so growth would erode "
                                "it near (%g, %g): name another `origin`, one that sees the whole margin",

@@ -54,6 +54,7 @@ void vn_network_destroy(vn_network *network) {
     vn_array_free(&network->pending);
     vn_array_free(&network->radius);
     vn_array_free(&network->joins);
+    vn_array_free(&network->joined);
     vn_array_free(&network->orders);
     vn_array_free(&network->sequence);
     vn_point_grid_free(&network->grid);
@@ -154,35 +155,6 @@ vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3],
     return add_node(network, parent, p, node);
 }
 
-static bool are_neighbours(const vn_network *network, int32_t a, int32_t b) {
-    if (network->parent.data[a] == b || network->parent.data[b] == a) {
-        return true;
-    }
-    for (int32_t i = 0; i < network->joins.count; i++) {
-        const vn_join *join = &network->joins.data[i];
-        if ((join->a == a && join->b == b) || (join->a == b && join->b == a)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radius) {
-    int32_t count = network->x.count;
-    if (a < 0 || b < 0 || a >= count || b >= count || a == b) {
-        return vn_fail(VN_INVALID, "a join needs two different nodes of the %d there are", count);
-    }
-    if (!(radius >= 0 && radius <= VN_HUGE)) {
-        return vn_fail(VN_INVALID, "a join's radius = %g must be 0 or more", radius);
-    }
-    if (are_neighbours(network, a, b)) {
-        return vn_fail(VN_INVALID, "a join needs two nodes that are not connected yet");
-    }
-    VN_TRY(vn_array_push(&network->joins, ((vn_join){a, b, radius})));
-    network->version++;
-    return VN_OK;
-}
-
 void vn_network_set_step(vn_network *network, int32_t step) {
     network->step = step;
 }
@@ -201,16 +173,6 @@ const char *vn_network_unit(const vn_network *network) {
 
 int32_t vn_network_count(const vn_network *network) {
     return network->x.count;
-}
-
-int32_t vn_network_join_count(const vn_network *network) {
-    return network->joins.count;
-}
-
-void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b, double *radius) {
-    *a = network->joins.data[join].a;
-    *b = network->joins.data[join].b;
-    *radius = network->joins.data[join].radius;
 }
 
 const double *vn_network_x(const vn_network *network) {

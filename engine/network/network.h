@@ -32,6 +32,7 @@ struct vn_network {
     bool recount;              ///< so much is pending that one pass over everything is cheaper
     VN_ARRAY(double) radius;   ///< given radii; empty when nobody gave any
     VN_ARRAY(vn_join) joins;
+    VN_ARRAY(uint64_t) joined; ///< the pairs of nodes that have a join, hashed; 0: an empty place
     VN_ARRAY(int32_t) orders;
     uint64_t orders_version;
     VN_ARRAY(int32_t) sequence; ///< parents first; empty while the indices themselves are such an order

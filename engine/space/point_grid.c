@@ -169,7 +169,7 @@ static bool ask_within(walk *w, int32_t point) {
 }
 
 int32_t vn_point_grid_any_within(const vn_point_grid *grid, const vn_points *points, const double p[3],
-                                 double radius, vn_point_accept_fn *accept, const void *payload) {
+                                 double radius, vn_point_accept_fn *accept, void *payload) {
     vn_nearest query = {.reach2 = radius * radius, .point = -1, .accept = accept, .payload = payload};
     walk w = {grid, points, p, ask_within, &query};
     cell_box box = box_around(grid, p, radius);

@@ -24,11 +24,11 @@ static inline int32_t vn_point_grid_count(const vn_point_grid *grid) {
 vn_status vn_point_grid_update(vn_point_grid *grid, const vn_points *points, int32_t count);
 
 /// Whether a point counts; called only for points that are near enough.
-typedef bool vn_point_accept_fn(int32_t point, const void *payload);
+typedef bool vn_point_accept_fn(int32_t point, void *payload);
 
 /// Some point strictly nearer to @p p than @p radius (which one is not said), or -1. @p accept may be NULL.
 int32_t vn_point_grid_any_within(const vn_point_grid *grid, const vn_points *points, const double p[3],
-                                 double radius, vn_point_accept_fn *accept, const void *payload);
+                                 double radius, vn_point_accept_fn *accept, void *payload);
 
 /// What vn_point_grid_nearest() looks for, and what it finds.
 typedef struct vn_nearest {
@@ -36,7 +36,7 @@ typedef struct vn_nearest {
     int32_t point;              ///< out: the nearest point, or -1
     uint64_t seed, id;          ///< in: of equally near points, that of the least vn_hash(seed, id, point, 0) is taken
     vn_point_accept_fn *accept; ///< in: may be NULL
-    const void *payload;
+    void *payload;
 } vn_nearest;
 void vn_point_grid_nearest(const vn_point_grid *grid, const vn_points *points, const double p[3],
                            vn_nearest *query);

@@ -84,8 +84,8 @@ typedef struct vn_extend_def {
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that direction vanishes,
 /// or has a child already, the node grows toward its first-ranked attractor alone (READINGS R3). Where the edge would leave
-/// the domain, each of the attractors is tried alone, then given to the nearest node that sees it, and retired when there
-/// is none. @p added gets how many nodes there are more, @p first the index of the first. Counts the network's step on.
+/// the domain, each of the attractors is tried alone, then given to the nearest node that sees it, or it waits for one;
+/// what still waits when nothing else can grow is retired. @p added gets how many nodes there are more, @p first the index of the first. Counts the network's step on.
 /// When it adds none, and neither attractors nor domain change, no later call will.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def, int32_t *added,
                            int32_t *first);

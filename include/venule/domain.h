@@ -50,7 +50,7 @@ VN_API vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int3
 typedef struct vn_profile_def {
     double length;            ///< from base (0, 0) to tip (0, length); > 0; default 1
     const double *half_width; ///< its half width at equal steps from base to tip, each 0 or more; borrowed
-    int32_t samples;          ///< how many, 3 or more
+    int32_t samples;          ///< how many, 3 or more; default 200
 } vn_profile_def;
 VN_API vn_profile_def vn_profile_def_default(void);
 /// A leaf blade that mirrors in its midrib, the y axis.

@@ -2,6 +2,7 @@
 
 #include "draw/canvas.h"
 
+#include <math.h>
 #include <string.h>
 
 static void release_canvas(void *object) {
@@ -59,6 +60,9 @@ static void read_widths(lua_State *L, int source, const vn_network *network, vn_
         lua_pushinteger(L, i + 1);
         lua_call(L, 1, 1);
         widths[i] = vnl_check_number(L, -1, "stroke.width");
+        if (!(widths[i] >= 0 && widths[i] <= VN_HUGE)) { // the engine would count nodes from 0
+            vnl_fail(L, "stroke.width: that of node %d is %g; give 0 or more", i + 1, widths[i]);
+        }
         lua_pop(L, 1);
     }
     def->widths = widths;
@@ -76,7 +80,7 @@ static int canvas_stroke(lua_State *L) {
     } else if (lua_type(L, -1) == LUA_TNUMBER) {
         def.width = lua_tonumber(L, -1);
         if (!(def.width > 0 && def.width <= VN_HUGE)) {
-            return vnl_fail(L, "stroke.width = %g must be above 0 (length)", def.width);
+            return vnl_fail(L, "stroke.width = %g must be above 0 and finite (length)", def.width);
         }
     } else if (!radius && !lua_isnil(L, -1)) {
         return vnl_fail(L, "stroke.width: \"radius\", a number or a function of the node expected, got %s",
@@ -106,6 +110,9 @@ static int32_t read_points(lua_State *L, int index, double **x, double **y) {
             lua_geti(L, index, i + 1);
             vnl_read_point(L, -1, "dots", p);
             lua_pop(L, 1);
+            if (!(fabs(p[0]) <= VN_HUGE && fabs(p[1]) <= VN_HUGE)) {
+                vnl_fail(L, "dots: point %d = (%g, %g) is not finite", i + 1, p[0], p[1]);
+            }
         }
         (*x)[i] = p[0];
         (*y)[i] = p[1];

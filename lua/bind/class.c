@@ -38,7 +38,7 @@ void *vnl_check(lua_State *L, int index, const vnl_class *class) {
         luaL_typeerror(L, index, class->name);
     }
     if (*box == NULL) {
-        luaL_error(L, "this %s is closed", class->name);
+        vnl_fail(L, "this %s is closed", class->name);
     }
     return *box;
 }

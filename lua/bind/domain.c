@@ -29,7 +29,9 @@ static int make_disk(lua_State *L) {
 
 static int make_sphere(lua_State *L) {
     vn_disk_def def;
-    vnl_read_options(L, 1, &vn_disk_schema, &def);
+    vn_schema schema = vn_disk_schema;
+    schema.name = "sphere"; // as its errors call it
+    vnl_read_options(L, 1, &schema, &def);
     void **box = vnl_push_box(L, &vnl_domain_class);
     vnl_try(L, vn_domain_sphere((vn_domain **)box, &def));
     return 1;

@@ -18,8 +18,8 @@ static const vnl_class *class_by_name(const char *name) {
 }
 
 static void fail_type(lua_State *L, const vn_schema *schema, const vn_field *field, const char *wanted) {
-    vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, luaL_typename(L, -1),
-             field->doc);
+    const char *got = lua_isuserdata(L, -1) ? luaL_tolstring(L, -1, NULL) : luaL_typename(L, -1);
+    vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, got, field->doc);
 }
 
 static void fail_unknown_field(lua_State *L, const vn_schema *schema) {
@@ -143,6 +143,7 @@ void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *de
     index = lua_absindex(L, index);
     memcpy(def, schema->defaults, schema->size);
     if (lua_isnoneornil(L, index)) {
+        lua_settop(L, index > lua_gettop(L) ? index : lua_gettop(L));
         lua_newtable(L);
         lua_replace(L, index);
     }

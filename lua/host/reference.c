@@ -142,7 +142,7 @@ static void write_parameters(FILE *file, const vnl_function *f) {
     bool in_name = true;
     int depth = 0;
     for (const char *c = f->signature + 1; *c != ')' || depth > 0; c++) {
-        depth += (*c == '(' || *c == '{') - (*c == ')' || *c == '}');
+        depth += (*c == '(' || *c == '{' || *c == '<') - (*c == ')' || *c == '}' || *c == '>');
         if (*c == ',' && depth == 0) {
             in_name = true;
         } else if (*c == ':') {
@@ -155,25 +155,37 @@ static void write_parameters(FILE *file, const vnl_function *f) {
     fprintf(file, "%s)", list);
 }
 
+static const char *operator_sign(const char *name) {
+    static const char *const signs[][2] = {{"__sub", "-"}, {"__add", "+"}, {"__mul", "*"}};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++) {
+        if (strcmp(name, signs[i][0]) == 0) {
+            return signs[i][1];
+        }
+    }
+    return NULL;
+}
+
 static void write_function(writer *w, const vnl_function *f, const char *owner, char separator) {
     if (f->doc == NULL || f->doc[0] == '\0') {
         fprintf(stderr, "venule_reference: %s%c%s has no documentation\n", owner, separator, f->name);
         w->missing++;
         return;
     }
-    bool operator= strncmp(f->name, "__", 2) == 0;
-    fprintf(w->page, "\n### `%s%c%s%s`\n\n%s\n", operator? "" : owner, operator? ' ' : separator, f->name,
+    const char *sign = operator_sign(f->name);
+    if (sign != NULL) {
+        fprintf(w->page, "\n### `a %s b`\n\n%s\n", sign, f->doc);
+        return;
+    }
+    fprintf(w->page, "\n### `%s%c%s%s`\n\n%s\n", owner, separator, f->name,
             f->signature != NULL ? f->signature : "{…}", f->doc);
     if (f->schema != NULL) {
         write_options(w, f->schema);
     }
-    if (!operator) {
-        fprintf(w->stubs, "---%s\n", f->doc);
-        write_signature(w, f);
-        fprintf(w->stubs, "function %s%c%s", owner, separator, f->name);
-        write_parameters(w->stubs, f);
-        fputs(" end\n\n", w->stubs);
-    }
+    fprintf(w->stubs, "---%s\n", f->doc);
+    write_signature(w, f);
+    fprintf(w->stubs, "function %s%c%s", owner, separator, f->name);
+    write_parameters(w->stubs, f);
+    fputs(" end\n\n", w->stubs);
 }
 
 static void write_functions(writer *w, const vnl_function *functions, const char *owner, char separator) {
@@ -199,9 +211,8 @@ static void write_class(writer *w, const vnl_class *class) {
     fprintf(w->page, "\n## %s\n\n%s\n", name, class->doc);
     fprintf(w->stubs, "---%s\n---@class %s%s\n", class->doc, name, class == &vnl_growth_class ? ": venule.Domain" : "");
     for (const vnl_function *f = class->methods; f->name != NULL; f++) {
-        if (strncmp(f->name, "__", 2) == 0) {
-            fprintf(w->stubs, "---@operator %s(venule.Domain): venule.Domain\n",
-                    strcmp(f->name, "__mul") == 0 ? "mul" : f->name + 2);
+        if (operator_sign(f->name) != NULL) {
+            fprintf(w->stubs, "---@operator %s(venule.Domain): venule.Domain\n", f->name + 2);
         }
     }
     write_class_fields(w, class);
@@ -210,8 +221,7 @@ static void write_class(writer *w, const vnl_class *class) {
 }
 
 // The systems of lua/venule/ give their functions and rows as a table: see lua/venule/reference.lua.
-static void write_lua_part(writer *w, lua_State *L, const char *field, FILE *file) {
-    (void)w;
+static void write_lua_part(lua_State *L, const char *field, FILE *file) {
     lua_getfield(L, -1, field);
     fputs(lua_tostring(L, -1), file);
     lua_pop(L, 1);
@@ -236,8 +246,8 @@ static void write_all(writer *w, lua_State *L) {
     write_functions(w, vnl_attractors_functions, "venule", '.');
     write_functions(w, vnl_canvas_functions, "venule", '.');
     write_functions(w, vnl_module_functions, "venule", '.');
-    write_lua_part(w, L, "stubs", w->stubs);
-    write_lua_part(w, L, "page", w->page);
+    write_lua_part(L, "stubs", w->stubs);
+    write_lua_part(L, "page", w->page);
     fputs("\n## venule.domain\n", w->page);
     write_functions(w, vnl_domain_functions, "venule.domain", '.');
     fputs("\n## venule.growth\n", w->page);
@@ -256,7 +266,7 @@ int main(int argc, char **argv) {
     lua_State *L = luaL_newstate();
     luaL_openlibs(L);
     luaL_requiref(L, "venule", luaopen_venule, 0);
-    if (luaL_dostring(L, "return require 'venule.reference'") != LUA_OK) {
+    if (luaL_dostring(L, "return (require 'venule.reference')") != LUA_OK) {
         fprintf(stderr, "venule_reference: %s\n", lua_tostring(L, -1));
         return 1;
     }

@@ -34,8 +34,9 @@ function options.complaint(what, row, value)
   end
   if type(value) == "number" then
     local low = row.min and not (value >= row.min) or row.above and not (value > row.above)
-    if value ~= value or low or row.max and value > row.max then
-      return ("%s = %g must be %s%s"):format(what, value, value ~= value and "a number" or in_words(row), doc)
+    if value ~= value then return ("%s is not a number (NaN)%s"):format(what, doc) end
+    if low or row.max and value > row.max then
+      return ("%s = %g must be %s%s"):format(what, value, in_words(row), doc)
     end
   end
   if row.choices then

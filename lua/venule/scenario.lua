@@ -18,8 +18,14 @@ local function fail_usage(message)
   error(message, 0)
 end
 
+local from_text = {
+  string = function(text) return text end,
+  number = function(text) return tonumber(text) end,
+  boolean = function(text) return ({["true"] = true, ["false"] = false})[text] end,
+}
+
 local function read_row(row)
-  if type(row) ~= "table" or type(row[1]) ~= "string" or row[2] == nil then
+  if type(row) ~= "table" or type(row[1]) ~= "string" or not from_text[type(row[2])] then
     error('param: a row is {"name", default, min=, max=, choices=, unit=, help=, file=}', 3)
   end
   local named = {}
@@ -32,12 +38,6 @@ local function read_row(row)
   if complaint then error(complaint .. " (its own default)", 3) end
   return read
 end
-
-local from_text = {
-  string = function(text) return text end,
-  number = function(text) return tonumber(text) end,
-  boolean = function(text) return ({["true"] = true, ["false"] = false})[text] end,
-}
 
 -- A value of --set NAME=VALUE is of the type of the parameter's default.
 local function value_from(row, given)
@@ -144,7 +144,7 @@ end
 set_manifest(manifest)
 
 local result_rows = {
-  {"network", nil, type = "any", doc = "the network that grew"},
+  {"network", nil, type = "userdata", doc = "the network that grew"},
   {"networks", nil, type = "table", doc = "several networks by name"},
   {"picture", nil, type = "any", doc = "a canvas, or function(canvas) … end that draws on one"},
   {"width", nil, type = "number", above = 0, unit = "pixels", doc = "of the canvas that picture is given"},
@@ -207,6 +207,10 @@ end
 --- Hand over the results: each -o is written by its extension; without one, a file called after the script.
 function scenario.result(given)
   local r = options.read("result", result_rows, given, 2)
+  local kind = type(r.picture)
+  if r.picture and kind ~= "userdata" and kind ~= "function" then
+    error("result.picture: a canvas or a function expected, got " .. kind, 2)
+  end
   if host.help then host.show_help({}) end
   local outputs = #host.outputs > 0 and host.outputs or default_outputs(r)
   local canvas

@@ -1,4 +1,5 @@
-/// What several tests share: cmocka with its headers, objects made in one line, and bytes that must come back.
+/// What several tests share: cmocka with its headers, objects made in one line, and bytes that must come
+/// back.
 #ifndef VN_TESTS_SUPPORT_H
 #define VN_TESTS_SUPPORT_H
 

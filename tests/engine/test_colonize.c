@@ -245,8 +245,8 @@ static void assert_same_nodes(const vn_network *network) {
         double p[3];
         vn_points_get(&points, v, p);
         if (memcmp(p, oracle.node[v], sizeof p) != 0 || vn_network_parent(network)[v] != oracle.parent[v]) {
-            fail_msg("node %d is (%.17g, %.17g, %.17g) and should be (%.17g, %.17g, %.17g)", v, p[0], p[1], p[2],
-                     oracle.node[v][0], oracle.node[v][1], oracle.node[v][2]);
+            fail_msg("node %d is (%.17g, %.17g, %.17g) and should be (%.17g, %.17g, %.17g)", v, p[0], p[1],
+                     p[2], oracle.node[v][0], oracle.node[v][1], oracle.node[v][2]);
         }
     }
 }
@@ -544,7 +544,8 @@ static void an_influence_that_could_not_be_found_is_not_current(void **state) {
     pair_source(&both, 3, 0, 0);
     assert_ok(vn_influence_find(&both.influence, both.attractors, both.network, &find));
     vn_interrupt();
-    assert_int_equal(vn_influence_find(&both.influence, both.attractors, both.network, &find), VN_INTERRUPTED);
+    assert_int_equal(vn_influence_find(&both.influence, both.attractors, both.network, &find),
+                     VN_INTERRUPTED);
     assert_false(vn_influence_current(both.influence));
     pair_end(&both);
 }

@@ -39,7 +39,8 @@ static void darts_keep_their_distances_and_stay_inside(void **state) {
         vn_network *network = random_tree(dim, 30, 2, 4);
         vn_attractors *attractors = attractors_of(dim, 0);
         vn_rng rng = vn_rng_make(8);
-        vn_throw_def throw = {.domain = domain, .spacing = 0.4, .clearance = 0.7, .network = network, .rng = &rng};
+        vn_throw_def throw = {
+            .domain = domain, .spacing = 0.4, .clearance = 0.7, .network = network, .rng = &rng};
         int32_t accepted, sum = 0;
         for (int call = 0; call < 4; call++) {
             throw.count = call < 2 ? 40 : 2000;
@@ -169,11 +170,14 @@ static void a_throw_that_makes_no_sense_is_refused(void **state) {
     vn_rng rng = vn_rng_make(1);
     assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng}, "count");
     assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .density = 1}, "density");
-    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .spacing = NAN}, "throw.spacing");
-    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .spacing = -1}, "throw.spacing = -1");
+    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .spacing = NAN},
+                     "throw.spacing");
+    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .spacing = -1},
+                     "throw.spacing = -1");
     assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = -4}, "throw.count = -4");
     assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .density = NAN}, "throw.density");
-    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .clearance = 1}, "throw.network");
+    assert_bad_throw((vn_throw_def){.domain = disk, .rng = &rng, .count = 1, .clearance = 1},
+                     "throw.network");
     vn_domain_release(disk);
 }
 
@@ -209,8 +213,12 @@ static void a_margin_releases_what_it_passes(void **state) {
     vn_network *network = random_tree(2, 20, 1, 3);
     vn_attractors *attractors = attractors_of(2, 0);
     vn_rng rng = vn_rng_make(5);
-    vn_throw_def throw = {.domain = vn_growth_domain(growth), .density = 20, .spacing = 0.1,
-                          .clearance = 0.3, .network = network, .rng = &rng};
+    vn_throw_def throw = {.domain = vn_growth_domain(growth),
+                          .density = 20,
+                          .spacing = 0.1,
+                          .clearance = 0.3,
+                          .network = network,
+                          .rng = &rng};
     double before = 0;
     int32_t accepted, sum = 0;
     assert_ok(vn_throw(attractors, &throw, &accepted));
@@ -325,7 +333,11 @@ static void veins_stay_inside_concave_shapes_and_every_run_ends(void **state) {
         vn_domain *shapes[3] = {u_shape(), comb_shape(), maple_shape()};
         static const double roots[3][3] = {{1, 9, 0}, {0.5, 7.5, 0}, {0.1, 0.1, 0}};
         for (int k = 0; k < 3; k++) {
-            setting s = {.domain = shapes[k], .length = seed == 3 ? 0.9 : 0.2, .kill = 0.3, .seed = seed, .darts = 250};
+            setting s = {.domain = shapes[k],
+                         .length = seed == 3 ? 0.9 : 0.2,
+                         .kill = 0.3,
+                         .seed = seed,
+                         .darts = 250};
             memcpy(s.at, roots[k], sizeof s.at);
             run_inside(&s);
             vn_domain_release(shapes[k]);
@@ -385,8 +397,8 @@ static void a_growing_blade_keeps_its_laws(void **state) {
     vn_influence *influence = NULL;
     vn_rng rng = vn_rng_make(21);
     setting s = {.domain = vn_growth_domain(growth), .length = 0.2, .kill = 0.35};
-    vn_throw_def throw = {.domain = s.domain, .density = 3, .spacing = 0.2, .clearance = 0.35, .network = network,
-                          .rng = &rng};
+    vn_throw_def throw = {
+        .domain = s.domain, .density = 3, .spacing = 0.2, .clearance = 0.35, .network = network, .rng = &rng};
     int32_t accepted, done, idle = 0;
     put_root(network, 0.01, 0.01, 0);
     for (int step = 0; step < 800 && idle < 30; step++) {
@@ -472,8 +484,12 @@ static vn_status run_begin(run *r) {
 
 static vn_status run_steps(run *r, double size) {
     vn_rng rng = vn_rng_make(6);
-    vn_throw_def throw = {.domain = r->domain, .count = r->darts, .spacing = 0.5 * size, .clearance = size,
-                          .network = r->network, .rng = &rng};
+    vn_throw_def throw = {.domain = r->domain,
+                          .count = r->darts,
+                          .spacing = 0.5 * size,
+                          .clearance = size,
+                          .network = r->network,
+                          .rng = &rng};
     vn_influence_def find = vn_influence_def_default();
     vn_extend_def extend = {.length = size, .domain = r->domain};
     vn_consume_def consume = {.distance = 1.2 * size, .into = r->eaten};

@@ -233,7 +233,8 @@ static void measures_are_what_darts_say(void **state) {
 
 static void measures_of_simple_shapes_are_exact(void **state) {
     (void)state;
-    static const double expected[] = {9 * 3.141592653589793, 36, 32.0 / 3 * 3.141592653589793, 6, 80 - 12 + 0.5};
+    static const double expected[] = {9 * 3.141592653589793, 36, 32.0 / 3 * 3.141592653589793, 6,
+                                      80 - 12 + 0.5};
     for (int which = 0; which < 5; which++) {
         vn_domain *domain = beast(which);
         assert_near(vn_domain_measure(domain), expected[which], 1e-9);
@@ -298,7 +299,8 @@ static void combinations_are_what_their_names_say(void **state) {
                 double p[3];
                 place_near(a, &rng, p);
                 bool in_a = vn_domain_contains(a, p), in_b = vn_domain_contains(b, p);
-                bool expected = how == VN_DIFFERENCE ? in_a && !in_b : (how == VN_UNION ? in_a || in_b : in_a && in_b);
+                bool expected =
+                    how == VN_DIFFERENCE ? in_a && !in_b : (how == VN_UNION ? in_a || in_b : in_a && in_b);
                 assert_int_equal(vn_domain_contains(c, p), expected);
             }
             vn_domain_release(c);
@@ -335,7 +337,8 @@ static void assert_bad_polygon(const double *xy, int32_t points, const char *say
 
 static void bad_outlines_are_refused_with_a_remedy(void **state) {
     (void)state;
-    static const double bow[] = {0, 0, 4, 4, 4, 0, 0, 4}, askew[] = {0, 0, 4, 4, 4, 0, 0, 3}, line[] = {0, 0, 1, 1, 2, 2};
+    static const double bow[] = {0, 0, 4, 4, 4, 0, 0, 4}, askew[] = {0, 0, 4, 4, 4, 0, 0, 3},
+                        line[] = {0, 0, 1, 1, 2, 2};
     static const double nan[] = {0, 0, 1, NAN, 2, 2}, spike[] = {0, 0, 4, 0, 4, 3, 4, -2, 0, -2};
     static const double crossing[] = {0, 0, 4, 0, 4, 4, 0, 4, 2, 2, 6, 2, 6, 3, 2, 3};
     static const int32_t two[] = {4, 4};
@@ -444,7 +447,8 @@ static void a_margin_passes_each_point_once(void **state) {
 
 static void growth_ends_exactly_where_it_should(void **state) {
     (void)state;
-    static const double cases[][3] = {{0, 0, 0}, {1, 7, 0.7}, {2, 2, 1}, {0.1, 0.3, 0.1}, {3, 0, 100}, {0.1, 1, 0.3}};
+    static const double cases[][3] = {{0, 0, 0},       {1, 7, 0.7}, {2, 2, 1},
+                                      {0.1, 0.3, 0.1}, {3, 0, 100}, {0.1, 1, 0.3}};
     vn_domain *shape = leaf();
     for (int k = 0; k < 6; k++) {
         vn_growth_def def = {.domain = shape, .from = cases[k][0], .to = cases[k][1], .step = cases[k][2]};
@@ -490,7 +494,8 @@ static void a_blade_that_growth_would_erode_is_refused(void **state) {
     vn_domain *star = maple_shape(), *u = u_shape(), *hole = holed();
     assert_int_equal(try_marginal((vn_growth_def){.domain = u}), VN_INVALID);
     assert_message("origin");
-    assert_int_equal(try_marginal((vn_growth_def){.domain = u, .has_origin = true, .origin = {1, 9, 0}}), VN_INVALID);
+    assert_int_equal(try_marginal((vn_growth_def){.domain = u, .has_origin = true, .origin = {1, 9, 0}}),
+                     VN_INVALID);
     assert_int_equal(try_marginal((vn_growth_def){.domain = hole}), VN_INVALID);
     assert_int_equal(try_marginal((vn_growth_def){.domain = star}), VN_INVALID);
     assert_message("star-shaped");

@@ -24,7 +24,18 @@ static void add_point(cloud *c, double x, double y, double z) {
     c->z[c->count++] = c->dim == 3 ? z : 0;
 }
 
-enum { RANDOM, CLUSTERED, LATTICE, DECIMAL_LATTICE, THIRDS, COINCIDENT, COLLINEAR, HUGE_NUMBERS, MIXED_SCALES, KINDS };
+enum {
+    RANDOM,
+    CLUSTERED,
+    LATTICE,
+    DECIMAL_LATTICE,
+    THIRDS,
+    COINCIDENT,
+    COLLINEAR,
+    HUGE_NUMBERS,
+    MIXED_SCALES,
+    KINDS
+};
 
 static double coordinate(vn_rng *rng, int kind) {
     switch (kind) {
@@ -69,7 +80,7 @@ static void fill_cloud(cloud *c, vn_rng *rng, int kind, int dim, int32_t count) 
 
 static const cloud *odd_only; // what the filter filters
 
-static bool is_odd(int32_t point, const void *payload) {
+static bool is_odd(int32_t point, void *payload) {
     assert_ptr_equal(payload, &odd_only);
     return point % 2 == 1;
 }
@@ -88,11 +99,11 @@ static void query_place(vn_rng *rng, const cloud *c, int kind, double p[3]) {
     }
 }
 
-static void check_nearest(const vn_point_grid *grid, const cloud *c, const double p[3], double reach, bool odd,
-                          uint64_t id) {
+static void check_nearest(const vn_point_grid *grid, const cloud *c, const double p[3], double reach,
+                          bool odd, uint64_t id) {
     vn_points points = points_of(c);
-    vn_nearest query = {.reach2 = reach * reach, .seed = 7, .id = id, .accept = odd ? is_odd : NULL,
-                        .payload = &odd_only};
+    vn_nearest query = {
+        .reach2 = reach * reach, .seed = 7, .id = id, .accept = odd ? is_odd : NULL, .payload = &odd_only};
     int32_t best = -1;
     double least = reach * reach;
     for (int32_t i = odd; i < c->count; i += 1 + odd) {
@@ -104,12 +115,14 @@ static void check_nearest(const vn_point_grid *grid, const cloud *c, const doubl
     }
     vn_point_grid_nearest(grid, &points, p, &query);
     if (query.point != best || (best >= 0 && query.reach2 != least)) {
-        fail_msg("nearest to (%.17g, %.17g, %.17g) is %d at %.17g and should be %d at %.17g (cell %g, %d points)",
-                 p[0], p[1], p[2], query.point, query.reach2, best, least, grid->cell, c->count);
+        fail_msg(
+            "nearest to (%.17g, %.17g, %.17g) is %d at %.17g and should be %d at %.17g (cell %g, %d points)",
+            p[0], p[1], p[2], query.point, query.reach2, best, least, grid->cell, c->count);
     }
 }
 
-static void check_within(const vn_point_grid *grid, const cloud *c, const double p[3], double radius, bool odd) {
+static void check_within(const vn_point_grid *grid, const cloud *c, const double p[3], double radius,
+                         bool odd) {
     vn_points points = points_of(c);
     bool any = false;
     for (int32_t i = odd; i < c->count; i += 1 + odd) {
@@ -305,7 +318,8 @@ static vn_segment some_segment(vn_rng *rng, int kind, int i, int count) {
     case FAR_AWAY:
         return (vn_segment){a + 1e9, b - 1e9, a + 1e9 + 1e-6 * c, d - 1e9};
     case TURNED_BOX:
-        return (vn_segment){box[i % 4][0], box[i % 4][1], box[i % 4 + 1][0] + wobble, box[i % 4 + 1][1] - wobble};
+        return (vn_segment){box[i % 4][0], box[i % 4][1], box[i % 4 + 1][0] + wobble,
+                            box[i % 4 + 1][1] - wobble};
     default:
         return (vn_segment){a, b, c, d};
     }
@@ -331,7 +345,8 @@ static void check_nearest_segment(const vn_segment_grid *grid, double x, double 
     }
     int32_t found = vn_segment_grid_nearest(grid, x, y, &d2, q);
     if (d2 > least * (1 + 1e-9) + 1e-15 || (found != best && d2 != least)) {
-        fail_msg("to (%.17g, %.17g) %d is nearest, at %.17g, and not %d, at %.17g", x, y, best, least, found, d2);
+        fail_msg("to (%.17g, %.17g) %d is nearest, at %.17g, and not %d, at %.17g", x, y, best, least, found,
+                 d2);
     }
     assert_near(hypot(x - q[0], y - q[1]), sqrt(d2), 1e-9 * (1 + sqrt(d2)));
 }
@@ -358,8 +373,8 @@ static void check_visit(const vn_segment_grid *grid, double x, double y, double 
         bool inside = s->x0 >= x && s->x0 <= x + size && s->y0 >= y && s->y0 <= y + size;
         if (inside || vn_segments_touch(s, &sides[0]) || vn_segments_touch(s, &sides[1])) {
             if (!visited[i]) {
-                fail_msg("(%.17g, %.17g) to (%.17g, %.17g) is not visited from (%.17g, %.17g), %g wide", s->x0,
-                         s->y0, s->x1, s->y1, x, y, size);
+                fail_msg("(%.17g, %.17g) to (%.17g, %.17g) is not visited from (%.17g, %.17g), %g wide",
+                         s->x0, s->y0, s->x1, s->y1, x, y, size);
             }
         }
     }
@@ -437,8 +452,12 @@ static void turns_have_the_right_sign(void **state) {
         int64_t most = (int64_t)1 << whole(&rng, 0, 30);
         int64_t dx = whole(&rng, -most, most), dy = whole(&rng, -most, most);
         int64_t s = whole(&rng, -1000, 1000), t = whole(&rng, -1000, 1000);
-        int64_t p[6] = {x, y, x + s * dx + whole(&rng, -1, 1), y + s * dy + whole(&rng, -1, 1),
-                        x + t * dx + whole(&rng, -1, 1), y + t * dy};
+        int64_t p[6] = {x,
+                        y,
+                        x + s * dx + whole(&rng, -1, 1),
+                        y + s * dy + whole(&rng, -1, 1),
+                        x + t * dx + whole(&rng, -1, 1),
+                        y + t * dy};
         check_turn(p, ldexp(1, (int)whole(&rng, -40, 40)));
         flat += long_turn(p) == 0;
     }
@@ -451,15 +470,15 @@ static void segments_touch_where_they_share_a_point(void **state) {
         vn_segment s, t;
         bool touch;
     } cases[] = {
-        {{0, 0, 2, 2}, {0, 2, 2, 0}, true},   {{0, 0, 2, 0}, {1, 0, 1, 5}, true},
-        {{0, 0, 2, 0}, {2, 0, 4, 1}, true},   {{0, 0, 2, 0}, {3, 0, 4, 0}, false},
-        {{0, 0, 2, 0}, {1, 0, 4, 0}, true},   {{0, 0, 4, 0}, {1, 0, 2, 0}, true},
-        {{0, 0, 2, 0}, {2, 0, 3, 0}, true},   {{0, 0, 2, 0}, {0, 1, 2, 1}, false},
-        {{1, 1, 1, 1}, {0, 0, 2, 2}, true},   {{1, 1, 1, 1}, {0, 0, 2, 3}, false},
-        {{1, 1, 1, 1}, {1, 1, 1, 1}, true},   {{1, 1, 1, 1}, {1, 2, 1, 2}, false},
-        {{0, 0, 0, 2}, {0, 2, 0, 3}, true},   {{0, 0, 0, 2}, {0, 2.0000000000000004, 0, 3}, false},
-        {{0, 0, 1, 1}, {2, 2, 3, 3}, false},  {{3, 3, 3, 3}, {0, 0, 2, 2}, false},
-        {{0, 0, 3, 1}, {3, 1, 0, 0}, true},   {{0, 0, 1, 0}, {0.5, -1, 0.5, -1e-300}, false},
+        {{0, 0, 2, 2}, {0, 2, 2, 0}, true},  {{0, 0, 2, 0}, {1, 0, 1, 5}, true},
+        {{0, 0, 2, 0}, {2, 0, 4, 1}, true},  {{0, 0, 2, 0}, {3, 0, 4, 0}, false},
+        {{0, 0, 2, 0}, {1, 0, 4, 0}, true},  {{0, 0, 4, 0}, {1, 0, 2, 0}, true},
+        {{0, 0, 2, 0}, {2, 0, 3, 0}, true},  {{0, 0, 2, 0}, {0, 1, 2, 1}, false},
+        {{1, 1, 1, 1}, {0, 0, 2, 2}, true},  {{1, 1, 1, 1}, {0, 0, 2, 3}, false},
+        {{1, 1, 1, 1}, {1, 1, 1, 1}, true},  {{1, 1, 1, 1}, {1, 2, 1, 2}, false},
+        {{0, 0, 0, 2}, {0, 2, 0, 3}, true},  {{0, 0, 0, 2}, {0, 2.0000000000000004, 0, 3}, false},
+        {{0, 0, 1, 1}, {2, 2, 3, 3}, false}, {{3, 3, 3, 3}, {0, 0, 2, 2}, false},
+        {{0, 0, 3, 1}, {3, 1, 0, 0}, true},  {{0, 0, 1, 0}, {0.5, -1, 0.5, -1e-300}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const vn_segment *s = &cases[i].s, *t = &cases[i].t;

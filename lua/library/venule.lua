@@ -1,0 +1,515 @@
+---@meta venule
+-- Generated from the bindings (the target `generate`); not to be edited.
+
+---@class venule
+---@field version string
+local venule = {domain = {}, growth = {}}
+
+---@class venule.Bounds
+---@field min number[]
+---@field max number[]
+---@field unit? string
+
+---@class venule.Measures
+---@field nodes integer
+---@field roots integer
+---@field tips integer
+---@field bifurcations integer
+---@field joins integer
+---@field depth integer
+---@field length number
+---@field min_radius number
+---@field max_radius number
+---@field extent venule.Bounds
+
+---@class (exact) venule.network.Options
+---@field dim? integer # dimensions: 2 or 3 (default 2)
+---@field max_nodes? integer # a network that would grow beyond it fails; guards against a script that runs away, nodes (default 1e+08)
+---@field unit? string # the script's length unit ("mm"), carried into files (default "")
+---@field murray? any # radii by Murray's law, kept up to date as the network grows
+
+---An empty network.
+---@param options venule.network.Options
+---@return venule.Network
+function venule.network(options) end
+
+---Read a network from a JSON file; or, where it holds several, a table of them by name.
+---@param path string
+---@return venule.Network|table<string, venule.Network>
+function venule.load(path) end
+
+---Write one network, or several by name, as JSON.
+---@param path string
+---@param networks venule.Network|table<string, venule.Network>
+function venule.save(path, networks) end
+
+---@class (exact) venule.attractors.Options
+---@field dim? integer # dimensions: 2 or 3 (default 2)
+---@field seed? integer # decides which of equally near nodes an attractor influences (default 0)
+
+---An empty set of attractors.
+---@param options venule.attractors.Options
+---@return venule.Attractors
+function venule.attractors(options) end
+
+---@class (exact) venule.canvas.Options
+---@field width? number # width of the picture; 0: from the height and the view's proportions, or 800, pixels
+---@field height? number # height of the picture; 0: from the width and the view's proportions, or 800, pixels
+---@field view? any # what is fitted, centred, into the canvas; without it, 1 pixel is 1 unit and (0, 0) the lower left corner, length
+---@field margin? number # kept free around the view, pixels (default 10)
+---@field background? string # a colour, or "none" (default "none")
+---@field unit? string # length unit of the view: "mm", "cm", "m", "um", "in" or "pt"; pages (SVG, PDF) are then at true scale; "": 96 pixels an inch (default "")
+
+---An empty picture.
+---@param options venule.canvas.Options
+---@return venule.Canvas
+function venule.canvas(options) end
+
+---Random numbers that depend on nothing but the seed.
+---@param seed integer
+---@return venule.Rng
+function venule.rng(seed) end
+
+---0 below `low`, 1 above `high`, and a smooth rise between.
+---@param low number
+---@param high number
+---@param t number
+---@return number
+function venule.smoothstep(low, high, t) end
+
+---Which of the names a mistyped word most likely means, or nil.
+---@param word string
+---@param names string[]
+---@return string?
+function venule.closest(word, names) end
+
+---Declare the script's parameters and get their values: rows {"name", default, min=, max=, choices=, unit=, help=, file=}. `--set name=value` changes one; `seed` is always there.
+---@param rows table[]
+---@return table
+function venule.param(rows) end
+
+---Call once a step: shows progress on a terminal, and meets Ctrl-C and the limits.
+---@param fraction? number
+function venule.frame(fraction) end
+
+---Say something about the run that the user should know, on stderr.
+---@param text string
+function venule.note(text) end
+
+---@class (exact) venule.result.Options
+---@field network? any # the network that grew
+---@field networks? table # several networks by name
+---@field picture? any # a canvas, or function(canvas) … end that draws on one
+---@field width? number # of the canvas that picture is given
+---@field height? number # of the canvas that picture is given
+---@field view? any # bounds of what it shows; left out: those of the networks
+---@field background? string # of the canvas that picture is given
+---@field unit? string # length unit of the view
+
+---Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); without one, a file called after the script.
+---@param options venule.result.Options
+function venule.result(options) end
+
+---@class (exact) venule.venation.Options
+---@field domain any # a blade that grows (venule.growth), or a domain that stays
+---@field rng any # the random numbers: venule.rng(seed)
+---@field roots? table # seed points {{x, y}, …}; left out: the lowest point of the blade
+---@field network? any # a network to go on from, in place of roots
+---@field birth_distance? number # b_s: a new source keeps this far from other sources
+---@field vein_distance? number # b_v: and this far from veins; left out: birth_distance
+---@field kill_distance? number # d_k: a vein this close consumes its source
+---@field segment_length? number # D: the length a vein gains in a step
+---@field attraction_distance? number # sources farther than this draw no vein; left out: any distance
+---@field darts number # ρ: darts thrown per area and step; under marginal growth, per area once
+---@field neighborhood? "nearest" # which nodes a source draws: the nearest one (open venation)
+---@field vein_steps? integer # vein steps to one growth step
+---@field stop? "reached"|"grown" # end when every source is reached, or as soon as the blade is grown
+---@field murray? table # {exponent=, tip_radius=}: radii by Murray's law
+---@field unit? string # length unit that files carry
+
+---Open leaf venation (Runions §3), ready to grow: `s:step()` (false when done), `s:run{progress=}`, `s.network`, `s.attractors`. The loop is plain Lua in lua/venule/venation.lua; copy it when an option is not enough.
+---@param options venule.venation.Options
+---@return venule.Venation
+function venule.venation(options) end
+
+---@class venule.Venation
+---@field network venule.Network
+---@field attractors venule.Attractors
+local Venation = {}
+
+---Grow by one step; false when done.
+---@return boolean
+function Venation:step() end
+
+---Grow to the end.
+---@param options? {progress?: fun(system: venule.Venation)}
+---@return venule.Venation
+function Venation:run(options) end
+
+---@class (exact) venule.disk.Options
+---@field center? number[] # its middle, length
+---@field radius? number # from the middle to the border, length (default 1)
+
+---A disk.
+---@param options venule.disk.Options
+---@return venule.Domain
+function venule.domain.disk(options) end
+
+---@class (exact) venule.disk.Options
+---@field center? number[] # its middle, length
+---@field radius? number # from the middle to the border, length (default 1)
+
+---A ball in 3D.
+---@param options venule.disk.Options
+---@return venule.Domain
+function venule.domain.sphere(options) end
+
+---@class (exact) venule.box.Options
+---@field min number[] # its corner of least coordinates, length
+---@field max number[] # the opposite corner; two coordinates make a flat box, three a solid one, length
+
+---An upright rectangle, or in 3D a box.
+---@param options venule.box.Options
+---@return venule.Domain
+function venule.domain.box(options) end
+
+---A polygon with holes: `polygon{outer, hole, …}`, each ring a list of points {x, y}; a single ring may stand without the outer braces. Orientation is free; a ring inside another is a hole.
+---@param rings number[][][]
+---@return venule.Domain
+function venule.domain.polygon(rings) end
+
+---@class (exact) venule.profile.Options
+---@field length? number # from the base at (0, 0) to the tip at (0, length), length (default 1)
+---@field samples? integer # how many points of a half_width function are taken (a table is taken as it is), points (default 200)
+---@field half_width any # half the blade's width along its midrib; 0 or more, length
+
+---A leaf blade by its half width along the midrib, the y axis.
+---@param options venule.profile.Options
+---@return venule.Domain
+function venule.domain.profile(options) end
+
+---@class (exact) venule.svg.Options
+---@field id? string # id of the shape, or of a group of shapes, that is the outline; otherwise pick decides
+---@field pick? "largest"|"all" # without an id: the filled shape of the largest area, or everything filled, united (default "largest")
+---@field tolerance? number # curves become polylines that are within this of them; 0 for 1e-4 of the shape's size, length (default 0)
+---@field repair? boolean # accept outlines that cross themselves, and fill them as a painter would (default false)
+
+---The outline of a shape in an SVG file, y up: in the user units of its viewBox, whose lower left corner becomes (0, 0), or in mm when the file gives its width in mm, cm, in or pt.
+---@param path string
+---@param options? venule.svg.Options
+---@return venule.Domain
+function venule.domain.svg(path, options) end
+
+---@class (exact) venule.none.Options
+---@field domain venule.Domain|venule.Growth # the shape, which stays as it is
+
+---A domain that stays as it is.
+---@param options venule.none.Options
+---@return venule.Growth
+function venule.growth.none(options) end
+
+---@class (exact) venule.marginal.Options
+---@field domain venule.Domain|venule.Growth # the shape of the blade
+---@field origin? number[] # the petiole, about which the margin is scaled; left out: the lowest point of the outline, length
+---@field from? number # the blade's length at first; left out: a twentieth of `to`, length
+---@field to? number # its length when grown; left out: the domain's own length, its extent along y, length
+---@field step? number # the length that each step adds; left out: a hundredth of to - from, length
+
+---A blade of which only the margin moves, scaled about the petiole (Runions §3.3). Attractors thrown into it are thrown over the largest shape at once, and released as the margin passes them.
+---@param options venule.marginal.Options
+---@return venule.Growth
+function venule.growth.marginal(options) end
+
+---Where something may grow. Domains combine: `blade - hole`, `a + b`, `a * b`.
+---@class venule.Domain
+---@operator sub(venule.Domain): venule.Domain
+---@operator add(venule.Domain): venule.Domain
+---@operator mul(venule.Domain): venule.Domain
+---@field dim integer # 2 or 3
+---@field unit string # the length unit of its file, or ""
+local Domain = {}
+
+---Whether a point is inside.
+---@param x number
+---@param y number
+---@param z? number
+---@return boolean
+function Domain:contains(x, y, z) end
+
+---The distance to the border: positive inside, negative outside.
+---@param x number
+---@param y number
+---@param z? number
+---@return number
+function Domain:distance(x, y, z) end
+
+---The border's nearest point.
+---@param x number
+---@param y number
+---@param z? number
+---@return number, number, number?
+function Domain:closest(x, y, z) end
+
+---Its value there, in [0, 1]: 1 inside and 0 outside where it has no values of its own.
+---@param x number
+---@param y number
+---@param z? number
+---@return number
+function Domain:value(x, y, z) end
+
+---The box around it: {min = {…}, max = {…}}.
+---@return venule.Bounds
+function Domain:bounds() end
+
+---Its area, or in 3D its volume.
+---@return number
+function Domain:measure() end
+
+---@class (exact) venule.sample.Options
+---@field spacing? number # a point this close to an earlier one is refused; left out: none is, length
+---@field rng venule.Rng # the random numbers: venule.rng(seed)
+
+---Throw n darts, uniformly distributed; the points {x, y} of those that stick. `rng` is required; with `spacing` a dart that close to an earlier one is refused.
+---@param n integer
+---@param options venule.sample.Options
+---@return number[][]
+function Domain:sample(n, options) end
+
+---A domain that changes with time; accepted wherever a domain is.
+---@class venule.Growth: venule.Domain
+---@field time integer # steps taken
+---@field length number # today's length
+---@field final_length number # the length when grown
+---@field unit number # today's unit length in the simulation's coordinates: 1 at first (READINGS R7)
+---@field origin number[] # the petiole {x, y}, which stays where it is
+---@field dim integer # 2 or 3
+local Growth = {}
+
+---Grow by one step; the attractors that the margin has passed are released, away from the network. False when it was grown already.
+---@param ... venule.Network|venule.Attractors
+---@return boolean
+function Growth:advance(...) end
+
+---Where the tissue that is at (x, y) at time t1 is at time t2.
+---@param x number
+---@param y number
+---@param t1 number
+---@param t2 number
+---@return number, number
+function Growth:map(x, y, t1, t2) end
+
+---What grows: a forest of nodes, and joins that close loops. `#net` nodes, numbered from 1.
+---@class venule.Network
+---@field x number[] # the nodes' coordinates
+---@field y number[] # the nodes' coordinates
+---@field z number[] # the nodes' coordinates; 0 in 2D
+---@field parent integer[] # each node's parent, 0 at a root
+---@field radius number[] # of the edge to the parent; at a root, of its thickest child
+---@field order integer[] # of that edge, once net:orders(…) was called
+---@field tree integer[] # which root each node hangs from, counted from 1
+---@field birth integer[] # the step each node was born in
+---@field dim integer # 2 or 3
+---@field unit string # the length unit that files carry
+local Network = {}
+
+---Add a root; its index.
+---@param x number
+---@param y number
+---@param z? number
+---@return integer
+function Network:root(x, y, z) end
+
+---Add a child of a node; its index.
+---@param parent integer
+---@param x number
+---@param y number
+---@param z? number
+---@return integer
+function Network:add(parent, x, y, z) end
+
+---Close a loop by an edge between two nodes.
+---@param a integer
+---@param b integer
+---@param radius? number
+function Network:join(a, b, radius) end
+
+---@class (exact) venule.murray.Options
+---@field exponent? number # n in r_parent^n = Σ r_child^n: 3 by Murray, 2 in most of Runions' leaves (default 3)
+---@field tip_radius? number # radius of the edges that end in a tip, length (default 1)
+
+---Give the edges radii by Murray's law; from now on they follow it, however the network grows.
+---@param options venule.murray.Options
+function Network:murray(options) end
+
+---@class (exact) venule.extend.Options
+---@field length number # D, the length of a new vein segment, length
+---@field domain? venule.Domain|venule.Growth # an edge that would leave it is not made; its attractor turns to the nearest node that sees it
+
+---Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.
+---@param influence venule.Influence
+---@param options venule.extend.Options
+---@return integer, integer
+function Network:extend(influence, options) end
+
+---The children of a node, in the order of birth.
+---@param node integer
+---@return integer[]
+function Network:children(node) end
+
+---The extra edges that close loops.
+---@return {a: integer, b: integer, radius: number}[]
+function Network:joins() end
+
+---Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order.
+---@param kind "strahler"|"horton"|"hickey"
+function Network:orders(kind) end
+
+---Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, max_radius, extent.
+---@return venule.Measures
+function Network:measure() end
+
+---Multiply all coordinates and radii.
+---@param factor number
+function Network:scale(factor) end
+
+---Write the network as JSON.
+---@param path string
+function Network:save(path) end
+
+---Points that attract: auxin sources, oxygen drains. `#a` of them, numbered from 1.
+---@class venule.Attractors
+---@field x number[] # the attractors' coordinates
+---@field y number[] # the attractors' coordinates
+---@field z number[] # the attractors' coordinates; 0 in 2D
+---@field dim integer # 2 or 3
+---@field dormant integer # how many wait beyond a growing margin
+---@field retired {hidden: integer, circled: integer} # how many were given up: hidden, as no node sees them without leaving the domain; circled, as veins grew for them and came no nearer
+local Attractors = {}
+
+---Add one.
+---@param x number
+---@param y number
+---@param z? number
+function Attractors:add(x, y, z) end
+
+---@class (exact) venule.throw.Options
+---@field domain venule.Domain|venule.Growth # where the darts fall
+---@field count? integer # how many darts; or give `density`, darts
+---@field density? number # darts per area (volume) of the domain; a fraction of a dart is carried to the next call, darts/length²
+---@field spacing? number # birth distance b_s: a dart this close to an attractor is refused; left out: none is, length
+---@field clearance? number # birth distance b_v: a dart this close to a node of `network` is refused; left out: none is, length
+---@field network? venule.Network # what `clearance` keeps clear of
+---@field rng venule.Rng # the random numbers: venule.rng(seed)
+
+---Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all attractors and farther than `clearance` from all nodes of `network` (Runions §3.3).
+---@param options venule.throw.Options
+---@return integer
+function Attractors:throw(options) end
+
+---@class (exact) venule.influence.Options
+---@field mode? "nearest" # which nodes an attractor influences: the nearest one (open venation, Runions §3) (default "nearest")
+---@field within? number # attraction distance: nodes farther away are not influenced; left out: any distance, length
+
+---Which attractors influence which nodes; good until the attractors or the network change.
+---@param network venule.Network
+---@param options? venule.influence.Options
+---@return venule.Influence
+function Attractors:influence(network, options) end
+
+---@class (exact) venule.consume.Options
+---@field distance number # kill distance: an attractor that a node is closer to is consumed, length
+---@field mode? "any" # how many nodes must be that close: any one (open venation, Runions §3.3) (default "any")
+---@field into? venule.Attractors # a set that the consumed ones are added to
+
+---Remove the attractors that the network has reached; how many.
+---@param network venule.Network
+---@param options venule.consume.Options
+---@return integer
+function Attractors:consume(network, options) end
+
+---Which attractors influence which nodes; `#f` pairs.
+---@class venule.Influence
+local Influence = {}
+
+---Iterate: `for attractor, node in f:pairs() do … end`, by attractor, then node.
+---@return fun(): integer, integer
+function Influence:pairs() end
+
+---A picture: a list of what was drawn, which becomes a file when it is saved.
+---@class venule.Canvas
+---@field width number # pixels
+---@field height number # pixels
+---@field scale number # pixels to one unit of the view's length
+local Canvas = {}
+
+---@class (exact) venule.fill.Options
+---@field color? string # colour of the inside, or "none" (default "#dfe9c8")
+---@field opacity? number # 0 is invisible, 1 hides what is behind (default 1)
+---@field stroke? string # colour of the outline, or "none" (default "none")
+---@field line_width? number # width of the outline; 0: one pixel, length (default 0)
+
+---Fill a domain, or today's shape of a growth.
+---@param domain venule.Domain|venule.Growth
+---@param options? venule.fill.Options
+function Canvas:fill(domain, options) end
+
+---@class (exact) venule.stroke.Options
+---@field color? string # colour of the veins (default "#2f4f2a")
+---@field opacity? number # 0 is invisible, 1 hides what is behind; veins that cross do not darken each other (default 1)
+---@field width? any # width of the edges; "radius", the default, is twice each edge's radius, length
+---@field min_width? number # no edge is drawn thinner than this, so that the finest veins do not vanish, pixels (default 0.3)
+
+---Draw a network with round ends, tapered where radii differ. `width` is "radius" (the default), a number, or a function of the node.
+---@param network venule.Network
+---@param options? venule.stroke.Options
+function Canvas:stroke(network, options) end
+
+---@class (exact) venule.dots.Options
+---@field color? string # colour of the dots (default "#c0392b")
+---@field opacity? number # 0 is invisible, 1 hides what is behind; dots that overlap do not darken each other (default 1)
+---@field radius? number # of each dot; 0: two pixels, length (default 0)
+
+---A dot at each attractor, or at each point {x, y} of a list.
+---@param points venule.Attractors|number[][]
+---@param options? venule.dots.Options
+function Canvas:dots(points, options) end
+
+---@class (exact) venule.text.Options
+---@field at? number[] # where the line of text stands, in the view's coordinates, length
+---@field color? string # colour of the letters (default "#222222")
+---@field size? number # height of the letters, pixels (default 14)
+---@field opacity? number # 0 is invisible, 1 hides what is behind (default 1)
+---@field anchor? "start"|"middle"|"end" # which part of the text is at `at` (default "start")
+
+---Write one line of text.
+---@param text string
+---@param options venule.text.Options
+function Canvas:text(text, options) end
+
+---Write the picture: .png, .svg or .pdf by the path's extension.
+---@param path string
+function Canvas:save(path) end
+
+---Random numbers that depend on nothing but their seed: `venule.rng(7)`.
+---@class venule.Rng
+local Rng = {}
+
+---The next number in [low, high); without arguments in [0, 1).
+---@param low? number
+---@param high? number
+---@return number
+function Rng:uniform(low, high) end
+
+---The next normally distributed number; mean 0 and standard deviation 1 unless given.
+---@param mean? number
+---@param sd? number
+---@return number
+function Rng:normal(mean, sd) end
+
+---The next whole number from low to high, both included.
+---@param low integer
+---@param high integer
+---@return integer
+function Rng:integer(low, high) end
+
+return venule
