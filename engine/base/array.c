@@ -9,7 +9,8 @@ static int64_t next_capacity(int64_t capacity, int64_t need) {
 
 vn_status vn_array_grow(void *data_slot, int32_t *capacity, int64_t need, size_t element_size) {
     if (need > INT32_MAX || need < 0) {
-        return vn_fail(VN_LIMIT, "an array of %lld elements is above the limit of %d", (long long)need, INT32_MAX);
+        return vn_fail(VN_LIMIT, "an array of %lld elements is above the limit of %d", (long long)need,
+                       INT32_MAX);
     }
     int64_t wanted = next_capacity(*capacity, need);
     void *data;

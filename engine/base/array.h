@@ -1,4 +1,5 @@
-/// Growable arrays of anything: `VN_ARRAY(double) lengths = {0};`. The elements are `lengths.data[0 .. count)`.
+/// Growable arrays of anything: `VN_ARRAY(double) lengths = {0};`. The elements are `lengths.data[0 ..
+/// count)`.
 #ifndef VN_BASE_ARRAY_H
 #define VN_BASE_ARRAY_H
 
@@ -30,7 +31,8 @@
      (array)->data = NULL, (array)->count = 0, (array)->capacity = 0)
 
 /// Give back the room that is not in use.
-#define vn_array_trim(array) vn_array_shrink(&(array)->data, &(array)->capacity, (array)->count, sizeof *(array)->data)
+#define vn_array_trim(array)                                                                                 \
+    vn_array_shrink(&(array)->data, &(array)->capacity, (array)->count, sizeof *(array)->data)
 
 /// Set every element's room to @p need elements with value zero: count becomes @p need.
 #define vn_array_zero(array, need)                                                                           \

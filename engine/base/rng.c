@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-// The finaliser of MurmurHash3 with Stafford's thirteenth constants: every input bit reaches every output bit.
+// The finaliser of MurmurHash3 with Stafford's thirteenth constants: every input bit reaches every output
+// bit.
 static uint64_t mix(uint64_t z) {
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;

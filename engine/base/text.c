@@ -32,7 +32,8 @@ vn_status vn_text_number(vn_text *text, double value) {
     return vn_text_append(text, number, (size_t)length);
 }
 
-// The length of the UTF-8 sequence at @p s, 0 where it is malformed (overlong, a surrogate, cut off, too large).
+// The length of the UTF-8 sequence at @p s, 0 where it is malformed (overlong, a surrogate, cut off, too
+// large).
 static int utf8_length(const unsigned char *s) {
     if (s[0] < 0x80) {
         return 1;

@@ -18,8 +18,8 @@ int vn_format_number(char *text, double value);
 /// |value| must be below 1e15; larger ones are written by vn_format_number().
 int vn_format_rounded(char *text, double value, int decimals);
 
-/// Read a decimal number at the beginning of [text, end). Returns the first byte after it, or NULL if there is none
-/// or it does not fit a double. Accepts a leading '+' and ".5"; not "inf", "nan" or hexadecimal.
+/// Read a decimal number at the beginning of [text, end). Returns the first byte after it, or NULL if there
+/// is none or it does not fit a double. Accepts a leading '+' and ".5"; not "inf", "nan" or hexadecimal.
 const char *vn_parse_number(const char *text, const char *end, double *value);
 
 #ifdef __cplusplus

@@ -8,7 +8,8 @@ static const vn_field attractors_fields[] = {
      "decides which of equally near nodes an attractor influences"},
 };
 const vn_schema vn_attractors_schema = {
-    "attractors", "An empty set of attractors", attractors_fields, 2, sizeof(vn_attractors_def), &attractors_default};
+    "attractors",       "An empty set of attractors", attractors_fields, 2, sizeof(vn_attractors_def),
+    &attractors_default};
 
 vn_attractors_def vn_attractors_def_default(void) {
     return attractors_default;
@@ -148,7 +149,8 @@ static void move_attractor(vn_attractors *a, int32_t from, int32_t to) {
     a->idle.data[to] = a->idle.data[from];
 }
 
-// Everything that is listed by number is made again: the active ones at once, the rest when it is next asked for.
+// Everything that is listed by number is made again: the active ones at once, the rest when it is next asked
+// for.
 vn_status vn_attractors_tidy(vn_attractors *a) {
     if (a->gone <= a->x.count / 2 + 32) {
         return VN_OK;

@@ -19,22 +19,23 @@ typedef struct vn_dormant {
     double p[3];
 } vn_dormant;
 
-/// Attractors keep their place here when one is consumed (`near2` turns negative), and move up only when more than half
-/// are gone; the public numbering passes over the gaps.
+/// Attractors keep their place here when one is consumed (`near2` turns negative), and move up only when more
+/// than half are gone; the public numbering passes over the gaps.
 ///
-/// Each remembers the node nearest to it. A new node is shown to those it may be nearer to (the reach tree), a new
-/// attractor asks the network's grid: so a step costs what changed, not what there is.
+/// Each remembers the node nearest to it. A new node is shown to those it may be nearer to (the reach tree),
+/// a new attractor asks the network's grid: so a step costs what changed, not what there is.
 struct vn_attractors {
     int dim;
     uint64_t seed;
     VN_ARRAY(double) x;
     VN_ARRAY(double) y;
-    VN_ARRAY(double) z;       ///< 3D only
-    VN_ARRAY(double) near2;   ///< squared distance of `node`, or of the reach while there is none; negative: gone
-    VN_ARRAY(int32_t) node;   ///< the nearest, or the nearest that sees it (VN_HIDDEN); -1: none within reach
-    VN_ARRAY(uint32_t) id;    ///< by birth; what ties are hashed by
-    VN_ARRAY(float) best;     ///< the distance from which progress is counted
-    VN_ARRAY(uint8_t) idle;   ///< how patient it still is: see VN_HIDDEN
+    VN_ARRAY(double) z; ///< 3D only
+    VN_ARRAY(double)
+    near2; ///< squared distance of `node`, or of the reach while there is none; negative: gone
+    VN_ARRAY(int32_t) node; ///< the nearest, or the nearest that sees it (VN_HIDDEN); -1: none within reach
+    VN_ARRAY(uint32_t) id;  ///< by birth; what ties are hashed by
+    VN_ARRAY(float) best;   ///< the distance from which progress is counted
+    VN_ARRAY(uint8_t) idle; ///< how patient it still is: see VN_HIDDEN
     int32_t gone;
     uint32_t born;
     uint64_t version;
@@ -49,27 +50,29 @@ struct vn_attractors {
     vn_reach_hits hits; ///< working memory
     vn_keyed_array nodes;
 
-    VN_ARRAY(int32_t) active;    ///< those that have a node, ascending; gone ones are dropped when it is next read
-    vn_keyed_array activated;    ///< those that got their first node since
+    VN_ARRAY(int32_t)
+    active; ///< those that have a node, ascending; gone ones are dropped when it is next read
+    vn_keyed_array activated; ///< those that got their first node since
     vn_keyed_array scratch;
-    vn_reach_hits fresh;         ///< those that a node came nearer to since the last consume
-    bool fresh_all;              ///< too many to list
-    double consumed2;            ///< kill distance² up to which all the others were consumed
+    vn_reach_hits fresh; ///< those that a node came nearer to since the last consume
+    bool fresh_all;      ///< too many to list
+    double consumed2;    ///< kill distance² up to which all the others were consumed
 
-    vn_point_grid grid;          ///< of the attractors, for `spacing`
-    VN_ARRAY(int32_t) present;   ///< the public numbering
+    vn_point_grid grid;        ///< of the attractors, for `spacing`
+    VN_ARRAY(int32_t) present; ///< the public numbering
     uint64_t present_version;
 
-    double carry;                ///< the fraction of a dart that is still to be thrown
-    vn_domain *sight;            ///< what hides nodes from attractors
-    VN_ARRAY(int32_t) waiting;   ///< those that no node sees yet
-    int32_t next_look;           ///< the network's step at which they look again
-    vn_domain *margin;           ///< what the dormant ones wait for
+    double carry;              ///< the fraction of a dart that is still to be thrown
+    vn_domain *sight;          ///< what hides nodes from attractors
+    VN_ARRAY(int32_t) waiting; ///< those that no node sees yet
+    int32_t next_look;         ///< the network's step at which they look again
+    vn_domain *margin;         ///< what the dormant ones wait for
     double margin_clearance;
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last
 };
 
-/// The bits of `idle`: whether the border hid its nearest node, how often it turned to another one, steps without progress.
+/// The bits of `idle`: whether the border hid its nearest node, how often it turned to another one, steps
+/// without progress.
 enum { VN_HIDDEN = 0x80, VN_TURN = 0x20, VN_TURNS = 0x60, VN_IDLE = 0x1F };
 
 static inline vn_points vn_attractors_points(const vn_attractors *a) {

@@ -3,15 +3,16 @@
 static const vn_consume_def consume_default = {.distance = 1};
 
 static const vn_field consume_fields[] = {
-    {"distance", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_consume_def, distance), 0, VN_HUGE, "length", NULL,
-     "kill distance: an attractor that a node is closer to is consumed"},
+    {"distance", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_consume_def, distance), 0, VN_HUGE, "length",
+     NULL, "kill distance: an attractor that a node is closer to is consumed"},
     {"mode", VN_CHOICE, 0, offsetof(vn_consume_def, mode), 0, 0, "", "any",
      "how many nodes must be that close: any one (open venation, Runions §3.3)"},
     {"into", VN_OBJECT, 0, offsetof(vn_consume_def, into), 0, 0, "", "attractors",
      "a set that the consumed ones are added to"},
 };
 const vn_schema vn_consume_schema = {
-    "consume", "Remove the attractors that were reached", consume_fields, 3, sizeof(vn_consume_def), &consume_default};
+    "consume",       "Remove the attractors that were reached", consume_fields, 3, sizeof(vn_consume_def),
+    &consume_default};
 
 vn_consume_def vn_consume_def_default(void) {
     return consume_default;
@@ -41,7 +42,8 @@ static bool is_reached(const vn_attractors *a, const vn_network *network, int32_
     return vn_point_grid_any_within(&network->grid, &nodes, p, distance, NULL, NULL) >= 0;
 }
 
-static vn_status consume_all(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {
+static vn_status consume_all(vn_attractors *a, vn_network *network, const vn_consume_def *def,
+                             int32_t *consumed) {
     const vn_point_grid *grid;
     VN_TRY(vn_network_grid(network, 0, &grid));
     for (int32_t i = 0; i < a->x.count; i++) {
@@ -81,7 +83,8 @@ vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def
     *consumed = 0;
     VN_TRY(vn_check_def(&vn_consume_schema, def));
     if (def->into == a || (def->into != NULL && def->into->dim != a->dim)) {
-        return vn_fail(VN_INVALID, "consume.into must be another set of attractors, of %d dimensions", a->dim);
+        return vn_fail(VN_INVALID, "consume.into must be another set of attractors, of %d dimensions",
+                       a->dim);
     }
     VN_TRY(vn_attractors_sync(a, network, def->distance));
     double distance2 = def->distance * def->distance;

@@ -1,4 +1,5 @@
-// New vein nodes (Runions et al. 2005, Equation 1), with the guards of READINGS R3: no child where one is, every run ends.
+// New vein nodes (Runions et al. 2005, Equation 1), with the guards of READINGS R3: no child where one is,
+// every run ends.
 
 #include "colonize/attractors.h"
 
@@ -10,8 +11,9 @@ static const vn_field extend_fields[] = {
     {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
      "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
 };
-const vn_schema vn_extend_schema = {"extend", "Grow the influenced nodes by one segment", extend_fields, 2,
-                                    sizeof(vn_extend_def), &extend_default};
+const vn_schema vn_extend_schema = {
+    "extend",       "Grow the influenced nodes by one segment", extend_fields, 2, sizeof(vn_extend_def),
+    &extend_default};
 
 vn_extend_def vn_extend_def_default(void) {
     return extend_default;
@@ -145,7 +147,8 @@ static vn_status step_toward(const extension *e, int32_t node, int32_t attractor
     return vn_network_add(e->network, node, p, NULL);
 }
 
-// The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one among the nearest
+// The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one
+// among the nearest
 // @p tries.
 static vn_status look_for_sight(const extension *e, int32_t attractor, int32_t tries, bool *found) {
     vn_attractors *a = e->a;
@@ -155,8 +158,11 @@ static vn_status look_for_sight(const extension *e, int32_t attractor, int32_t t
     const vn_point_grid *grid;
     vn_points_get(&points, attractor, s.at);
     VN_TRY(vn_network_grid(e->network, 0, &grid));
-    vn_nearest query = {.reach2 = a->reach2, .seed = a->seed, .id = a->id.data[attractor],
-                        .accept = sees_and_may_grow, .payload = &s};
+    vn_nearest query = {.reach2 = a->reach2,
+                        .seed = a->seed,
+                        .id = a->id.data[attractor],
+                        .accept = sees_and_may_grow,
+                        .payload = &s};
     vn_point_grid_nearest(grid, &nodes, s.at, &query);
     *found = query.point >= 0;
     if (!*found) {
@@ -177,7 +183,8 @@ static void retire_hidden(vn_attractors *a, int32_t attractor) {
     vn_attractors_remove(a, attractor);
 }
 
-// The border is between this attractor and its node: it turns to the nearest node that sees it, or waits for one.
+// The border is between this attractor and its node: it turns to the nearest node that sees it, or waits for
+// one.
 static vn_status turn_to_another(const extension *e, int32_t attractor) {
     vn_attractors *a = e->a;
     bool found;
@@ -196,8 +203,8 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
     return VN_OK;
 }
 
-// Those that wait look around again: seldom while veins grow elsewhere, and thoroughly when nothing else does. Those that
-// even then no node sees are retired.
+// Those that wait look around again: seldom while veins grow elsewhere, and thoroughly when nothing else
+// does. Those that even then no node sees are retired.
 static vn_status look_again(const extension *e, bool last_chance) {
     vn_attractors *a = e->a;
     int32_t kept = 0;
@@ -258,9 +265,11 @@ static vn_status check_seed(const extension *e) {
     double outside = -vn_domain_distance(domain, p);
     vn_box bounds = vn_domain_bounds(domain);
     if (outside > 1e-6 * sqrt(vn_distance2(bounds.min, bounds.max))) {
-        return vn_fail(VN_INVALID, "extend: the root at (%g, %g, %g) is outside the domain, by %g: place it inside or on the "
-                                   "border",
-                       p[0], p[1], p[2], outside);
+        return vn_fail(
+            VN_INVALID,
+            "extend: the root at (%g, %g, %g) is outside the domain, by %g: place it inside or on the "
+            "border",
+            p[0], p[1], p[2], outside);
     }
     return VN_OK;
 }
@@ -287,7 +296,8 @@ static vn_status group_by_node(vn_influence *influence) {
     int32_t count = influence->node.count;
     VN_TRY(vn_array_reserve(&influence->by_node, count));
     for (int32_t k = 0; k < count; k++) {
-        influence->by_node.data[k] = (vn_keyed){(uint64_t)influence->node.data[k], influence->attractor.data[k]};
+        influence->by_node.data[k] =
+            (vn_keyed){(uint64_t)influence->node.data[k], influence->attractor.data[k]};
     }
     influence->by_node.count = count;
     return vn_sort_keyed(&influence->by_node, &influence->scratch);
@@ -309,15 +319,17 @@ static vn_status grow_nodes(extension *e) {
     return VN_OK;
 }
 
-static vn_status check_extend(const vn_network *network, const vn_influence *influence, const vn_extend_def *def) {
+static vn_status check_extend(const vn_network *network, const vn_influence *influence,
+                              const vn_extend_def *def) {
     VN_TRY(vn_check_def(&vn_extend_schema, def));
     if (influence->network != network || !vn_influence_current(influence)) {
-        return vn_fail(VN_INVALID, "extend: the influence is out of date, or of another network: call influence() "
-                                   "again after anything has changed");
+        return vn_fail(VN_INVALID,
+                       "extend: the influence is out of date, or of another network: call influence() "
+                       "again after anything has changed");
     }
     if (def->domain != NULL && vn_domain_dim(def->domain) != network->dim) {
-        return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d", vn_domain_dim(def->domain),
-                       network->dim);
+        return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d",
+                       vn_domain_dim(def->domain), network->dim);
     }
     return VN_OK;
 }

@@ -1,5 +1,5 @@
-// The remembered nearest nodes. DESIGN: a new node changes only attractors that it is nearer to than what they remember,
-// and a new attractor has to look once.
+// The remembered nearest nodes. DESIGN: a new node changes only attractors that it is nearer to than what
+// they remember, and a new attractor has to look once.
 
 #include "colonize/attractors.h"
 
@@ -90,7 +90,8 @@ static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t 
     return VN_OK;
 }
 
-// The tree may lack a tail of newcomers, which is gone through one by one; when that is long it is built anew.
+// The tree may lack a tail of newcomers, which is gone through one by one; when that is long it is built
+// anew.
 static vn_status renew_tree(vn_attractors *a) {
     int32_t tail = a->x.count - a->tree_count;
     if (a->tree.levels > 0 && tail <= 64 + a->tree_count / 16) {
@@ -156,7 +157,8 @@ static void look_range(int64_t begin, int64_t end, void *payload) {
         int32_t i = job->first + (int32_t)k;
         double p[3];
         vn_points_get(&points, i, p);
-        job->found[k] = (vn_nearest){.reach2 = job->a->reach2, .seed = job->a->seed, .id = job->a->id.data[i]};
+        job->found[k] =
+            (vn_nearest){.reach2 = job->a->reach2, .seed = job->a->seed, .id = job->a->id.data[i]};
         vn_point_grid_nearest(job->grid, &nodes, p, &job->found[k]);
     }
 }

@@ -10,20 +10,27 @@
 static const vn_throw_def throw_default = {0};
 
 static const vn_field throw_fields[] = {
-    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, domain), 0, 0, "", "domain", "where the darts fall"},
+    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, domain), 0, 0, "", "domain",
+     "where the darts fall"},
     {"count", VN_I32, VN_OPTIONAL, offsetof(vn_throw_def, count), 0, INT32_MAX, "darts", NULL,
      "how many darts; or give `density`"},
     {"density", VN_F64, VN_OPTIONAL, offsetof(vn_throw_def, density), 0, VN_HUGE, "darts/length²", NULL,
      "darts per area (volume) of the domain; a fraction of a dart is carried to the next call"},
     {"spacing", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, spacing), 0, 1e150, "length", NULL,
      "birth distance b_s: a dart this close to an attractor is refused; left out: none is"},
-    {"clearance", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, clearance), 0, 1e150, "length", NULL,
-     "birth distance b_v: a dart this close to a node of `network` is refused; left out: none is"},
-    {"network", VN_OBJECT, 0, offsetof(vn_throw_def, network), 0, 0, "", "network", "what `clearance` keeps clear of"},
-    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng", "the random numbers: venule.rng(seed)"},
+    {"clearance", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, clearance), 0, 1e150, "length",
+     NULL, "birth distance b_v: a dart this close to a node of `network` is refused; left out: none is"},
+    {"network", VN_OBJECT, 0, offsetof(vn_throw_def, network), 0, 0, "", "network",
+     "what `clearance` keeps clear of"},
+    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng",
+     "the random numbers: venule.rng(seed)"},
 };
-const vn_schema vn_throw_schema = {"throw", "Throw darts at a domain; those that stick become attractors",
-                                   throw_fields, 7, sizeof(vn_throw_def), &throw_default};
+const vn_schema vn_throw_schema = {"throw",
+                                   "Throw darts at a domain; those that stick become attractors",
+                                   throw_fields,
+                                   7,
+                                   sizeof(vn_throw_def),
+                                   &throw_default};
 
 vn_throw_def vn_throw_def_default(void) {
     return throw_default;
@@ -61,7 +68,8 @@ static double beyond(double distance) {
     return nextafter(distance, INFINITY);
 }
 
-static bool is_clear(const vn_network *network, const vn_point_grid *grid, double clearance, const double p[3]) {
+static bool is_clear(const vn_network *network, const vn_point_grid *grid, double clearance,
+                     const double p[3]) {
     if (network == NULL || clearance <= 0) {
         return true;
     }
@@ -87,7 +95,8 @@ static vn_status network_grid(vn_network *network, double clearance, const vn_po
     return network != NULL && clearance > 0 ? vn_network_grid(network, clearance, grid) : VN_OK;
 }
 
-static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count, int32_t *accepted) {
+static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count,
+                      int32_t *accepted) {
     const vn_point_grid *grid;
     VN_TRY(network_grid(def->network, def->clearance, &grid));
     for (int32_t k = 0; k < count; k++) {
@@ -122,8 +131,8 @@ static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t 
     return status;
 }
 
-// A large throw is laid along a space-filling curve, so that what is near in the plane is near in memory: a step then
-// takes half the time. Its darts have no history yet that their order could show.
+// A large throw is laid along a space-filling curve, so that what is near in the plane is near in memory: a
+// step then takes half the time. Its darts have no history yet that their order could show.
 static vn_status lay_along_curve(vn_attractors *a, int32_t first, const vn_box *bounds) {
     int32_t count = a->x.count - first;
     vn_keyed_array keys = {0}, scratch = {0};
@@ -161,7 +170,8 @@ static vn_status count_darts(vn_attractors *a, const vn_throw_def *def, double m
     if (def->density > 0) {
         double exact = def->density * measure + a->carry;
         if (!(exact < INT32_MAX)) {
-            return vn_fail(VN_LIMIT, "throw.density = %g makes %g darts over an area of %g: more than %d; lower it",
+            return vn_fail(VN_LIMIT,
+                           "throw.density = %g makes %g darts over an area of %g: more than %d; lower it",
                            def->density, exact, measure, INT32_MAX);
         }
         *darts = (int64_t)exact;
@@ -270,15 +280,15 @@ static vn_status check_throw(const vn_attractors *a, const vn_throw_def *def) {
         return vn_fail(VN_INVALID, "throw: give how many darts either as `count` or as `density`, above 0");
     }
     if (vn_domain_dim(def->domain) != a->dim) {
-        return vn_fail(VN_INVALID, "throw.domain has %d dimensions, the attractors %d", vn_domain_dim(def->domain),
-                       a->dim);
+        return vn_fail(VN_INVALID, "throw.domain has %d dimensions, the attractors %d",
+                       vn_domain_dim(def->domain), a->dim);
     }
     if (def->clearance > 0 && def->network == NULL) {
         return vn_fail(VN_INVALID, "throw.clearance needs throw.network: the nodes to keep clear of");
     }
     if (def->network != NULL && vn_network_dim(def->network) != a->dim) {
-        return vn_fail(VN_INVALID, "throw.network has %d dimensions, the attractors %d", vn_network_dim(def->network),
-                       a->dim);
+        return vn_fail(VN_INVALID, "throw.network has %d dimensions, the attractors %d",
+                       vn_network_dim(def->network), a->dim);
     }
     return VN_OK;
 }

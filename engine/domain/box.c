@@ -64,19 +64,24 @@ static vn_status box_outline(const vn_domain *domain, int32_t sides, vn_rings *o
     return vn_rings_close(out);
 }
 
-static const vn_domain_kind flat_kind = {
-    .name = "box", .contains = box_contains, .closest = box_closest, .sees = box_sees, .outline = box_outline};
+static const vn_domain_kind flat_kind = {.name = "box",
+                                         .contains = box_contains,
+                                         .closest = box_closest,
+                                         .sees = box_sees,
+                                         .outline = box_outline};
 static const vn_domain_kind solid_kind = {
     .name = "box", .contains = box_contains, .closest = box_closest, .sees = box_sees};
 
 vn_status vn_domain_box(vn_domain **out, const vn_box_def *def) {
     *out = NULL;
     if (def->dim != 2 && def->dim != 3) {
-        return vn_fail(VN_INVALID, "box: %d dimensions; give min and max two coordinates each, or three", def->dim);
+        return vn_fail(VN_INVALID, "box: %d dimensions; give min and max two coordinates each, or three",
+                       def->dim);
     }
     for (int k = 0; k < def->dim; k++) {
         if (!(def->max[k] > def->min[k]) || !isfinite(def->max[k] - def->min[k])) {
-            return vn_fail(VN_INVALID, "box.max = %g must be above box.min = %g in every direction, and finite",
+            return vn_fail(VN_INVALID,
+                           "box.max = %g must be above box.min = %g in every direction, and finite",
                            def->max[k], def->min[k]);
         }
     }

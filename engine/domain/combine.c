@@ -26,8 +26,9 @@ static bool combination_contains(const vn_domain *domain, const double p[3]) {
     }
 }
 
-// The sign that each operand's distance has in the result; the result's distance is the least of a minimum, or of a
-// maximum for the union. Where that is not the true distance it is below it, so nothing can step across a border.
+// The sign that each operand's distance has in the result; the result's distance is the least of a minimum,
+// or of a maximum for the union. Where that is not the true distance it is below it, so nothing can step
+// across a border.
 static double combination_closest(const vn_domain *domain, const double p[3], double q[3]) {
     const combination *c = (const combination *)domain;
     double qa[3], qb[3];
@@ -92,7 +93,8 @@ static void measure_solid(vn_domain *domain) {
     for (int32_t i = 1; i <= POINTS; i++) {
         double p[3];
         for (int k = 0; k < 3; k++) {
-            p[k] = domain->bounds.min[k] + halton(i, bases[k]) * (domain->bounds.max[k] - domain->bounds.min[k]);
+            p[k] =
+                domain->bounds.min[k] + halton(i, bases[k]) * (domain->bounds.max[k] - domain->bounds.min[k]);
         }
         inside += vn_domain_contains(domain, p);
     }
@@ -136,7 +138,8 @@ static vn_status combine_kept(vn_domain **out, const vn_domain *a, const vn_doma
     return VN_OK;
 }
 
-static vn_status combine_polygons(vn_domain **out, const vn_domain *a, const vn_domain *b, vn_combination how) {
+static vn_status combine_polygons(vn_domain **out, const vn_domain *a, const vn_domain *b,
+                                  vn_combination how) {
     vn_rings rings = {0};
     vn_status status = combine_outlines(&rings, a, b, how, VN_FINE_SIDES);
     if (status == VN_OK && rings.ends.count == 0) {
@@ -150,7 +153,8 @@ static vn_status combine_polygons(vn_domain **out, const vn_domain *a, const vn_
 vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b, vn_combination how) {
     *out = NULL;
     if (a->dim != b->dim) {
-        return vn_fail(VN_INVALID, "a domain of %d dimensions cannot be combined with one of %d", a->dim, b->dim);
+        return vn_fail(VN_INVALID, "a domain of %d dimensions cannot be combined with one of %d", a->dim,
+                       b->dim);
     }
     bool exact = a->polygonal && b->polygonal;
     return exact ? combine_polygons(out, a, b, how) : combine_kept(out, a, b, how);

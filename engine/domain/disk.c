@@ -11,8 +11,8 @@ static const vn_field disk_fields[] = {
     {"radius", VN_F64, VN_ABOVE_MIN, offsetof(vn_disk_def, radius), 0, 1e150, "length", NULL,
      "from the middle to the border"},
 };
-const vn_schema vn_disk_schema = {"disk", "A disk, or in 3D a ball", disk_fields, 2, sizeof(vn_disk_def),
-                                  &disk_default};
+const vn_schema vn_disk_schema = {"disk", "A disk, or in 3D a ball", disk_fields,
+                                  2,      sizeof(vn_disk_def),       &disk_default};
 
 typedef struct disk {
     vn_domain base;
@@ -61,13 +61,17 @@ static vn_status disk_outline(const vn_domain *domain, int32_t sides, vn_rings *
     double step = 2 * PI / sides;
     double radius = d->radius * sqrt(step / sin(step));
     for (int32_t i = 0; i < sides; i++) {
-        VN_TRY(vn_rings_point(out, d->center[0] + radius * cos(i * step), d->center[1] + radius * sin(i * step)));
+        VN_TRY(vn_rings_point(out, d->center[0] + radius * cos(i * step),
+                              d->center[1] + radius * sin(i * step)));
     }
     return vn_rings_close(out);
 }
 
-static const vn_domain_kind disk_kind = {
-    .name = "disk", .contains = disk_contains, .closest = disk_closest, .sees = convex_sees, .outline = disk_outline};
+static const vn_domain_kind disk_kind = {.name = "disk",
+                                         .contains = disk_contains,
+                                         .closest = disk_closest,
+                                         .sees = convex_sees,
+                                         .outline = disk_outline};
 static const vn_domain_kind sphere_kind = {
     .name = "sphere", .contains = disk_contains, .closest = disk_closest, .sees = convex_sees};
 

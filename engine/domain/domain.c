@@ -82,7 +82,8 @@ static bool march(const vn_domain *domain, const double a[3], const double b[3])
     return true;
 }
 
-// An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of the bounds on.
+// An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of the
+// bounds on.
 static bool pull_inside(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
     memcpy(p, from, 3 * sizeof *p);
     if (domain->kind->contains(domain, from)) {
@@ -118,10 +119,11 @@ vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
             return VN_OK;
         }
     }
-    return vn_fail(VN_INFEASIBLE,
-                   "no dart of a million hit the %s: it fills less than a millionth of its bounds (is the outline "
-                   "right, and is it filled?)",
-                   domain->kind->name);
+    return vn_fail(
+        VN_INFEASIBLE,
+        "no dart of a million hit the %s: it fills less than a millionth of its bounds (is the outline "
+        "right, and is it filled?)",
+        domain->kind->name);
 }
 
 vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *out) {

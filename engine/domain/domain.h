@@ -16,7 +16,7 @@ extern const vn_schema vn_profile_schema;
 typedef struct vn_margin {
     /// The length at which the margin passes @p p; INFINITY when it never does.
     double (*arrival)(const vn_domain *domain, const double p[3]);
-    double (*length)(const vn_domain *domain);              ///< today's
+    double (*length)(const vn_domain *domain);                               ///< today's
     void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
 } vn_margin;
 
@@ -52,7 +52,8 @@ void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim);
 /// Set `measure` to the area of the outline.
 vn_status vn_domain_measure_outline(vn_domain *domain);
 
-/// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of the radius.
+/// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of the
+/// radius.
 enum { VN_FINE_SIDES = 2048 };
 
 /// A polygon's points where it is one, else NULL.

@@ -53,7 +53,8 @@ static vn_status build_strips(polygon *poly) {
     return VN_OK;
 }
 
-// A ray to the right crosses the border an odd number of times. Whether it passes left of an edge is decided exactly.
+// A ray to the right crosses the border an odd number of times. Whether it passes left of an edge is decided
+// exactly.
 static bool polygon_contains(const vn_domain *domain, const double p[3]) {
     const polygon *poly = (const polygon *)domain;
     const strips *s = &poly->strips;
@@ -166,7 +167,8 @@ vn_status vn_domain_from_rings(vn_domain **out, vn_rings *rings, const char *uni
     return VN_OK;
 }
 
-// Checked as drawn, then cleaned: orientation of rings is free in what comes, and outer rings turn left in what leaves.
+// Checked as drawn, then cleaned: orientation of rings is free in what comes, and outer rings turn left in
+// what leaves.
 static vn_status polygon_from_drawn(vn_domain **out, vn_rings *drawn) {
     vn_rings clean = {0};
     vn_status status = vn_rings_check_simple(drawn, "polygon");
@@ -179,7 +181,8 @@ static vn_status polygon_from_drawn(vn_domain **out, vn_rings *drawn) {
 vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int32_t *ring_sizes, int32_t rings) {
     *out = NULL;
     vn_rings drawn = {0};
-    vn_status status = rings > 0 ? VN_OK : vn_fail(VN_INVALID, "polygon: the outline is empty; give 3 points or more");
+    vn_status status =
+        rings > 0 ? VN_OK : vn_fail(VN_INVALID, "polygon: the outline is empty; give 3 points or more");
     int64_t at = 0;
     for (int32_t r = 0; status == VN_OK && r < rings; r++) {
         if (ring_sizes[r] < 3) {

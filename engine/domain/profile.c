@@ -11,8 +11,12 @@ static const vn_field profile_fields[] = {
      "function(t) with t from 0 (base) to 1 (tip), or a table of numbers from base to tip",
      "half the blade's width along its midrib; 0 or more"},
 };
-const vn_schema vn_profile_schema = {"profile", "A leaf blade by its half width along the midrib", profile_fields, 3,
-                                     sizeof(vn_profile_def), &profile_default};
+const vn_schema vn_profile_schema = {"profile",
+                                     "A leaf blade by its half width along the midrib",
+                                     profile_fields,
+                                     3,
+                                     sizeof(vn_profile_def),
+                                     &profile_default};
 
 vn_profile_def vn_profile_def_default(void) {
     return profile_default;
@@ -35,7 +39,8 @@ static vn_status add_side(vn_rings *rings, const vn_profile_def *def, int side) 
 static vn_status check_widths(const vn_profile_def *def) {
     VN_TRY(vn_check_number(&vn_profile_schema, vn_find_field(&vn_profile_schema, "length"), def->length));
     if (def->samples < 3) {
-        return vn_fail(VN_INVALID, "profile.half_width has %d samples; a blade needs 3 or more", def->samples);
+        return vn_fail(VN_INVALID, "profile.half_width has %d samples; a blade needs 3 or more",
+                       def->samples);
     }
     for (int32_t i = 0; i < def->samples; i++) {
         double w = def->half_width[i];
@@ -44,7 +49,8 @@ static vn_status check_widths(const vn_profile_def *def) {
                            (double)i / (def->samples - 1));
         }
         if (w == 0 && i > 0 && i < def->samples - 1) {
-            return vn_fail(VN_INVALID, "profile.half_width = 0 at t = %g: a blade may be closed at its ends only",
+            return vn_fail(VN_INVALID,
+                           "profile.half_width = 0 at t = %g: a blade may be closed at its ends only",
                            (double)i / (def->samples - 1));
         }
     }

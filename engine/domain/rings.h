@@ -14,8 +14,8 @@ typedef struct vn_rings {
 
 void vn_rings_free(vn_rings *rings);
 vn_status vn_rings_point(vn_rings *rings, double x, double y);
-/// End the ring that vn_rings_point() was filling. Repeated neighbours and a repeated first point are dropped, and so
-/// is a ring of fewer than three points.
+/// End the ring that vn_rings_point() was filling. Repeated neighbours and a repeated first point are
+/// dropped, and so is a ring of fewer than three points.
 vn_status vn_rings_close(vn_rings *rings);
 vn_status vn_rings_append(vn_rings *rings, const vn_rings *more);
 static inline int32_t vn_rings_begin(const vn_rings *rings, int32_t ring) {
@@ -30,15 +30,18 @@ vn_box vn_rings_bounds(const vn_rings *rings);
 vn_status vn_rings_check_simple(const vn_rings *rings, const char *what);
 
 typedef enum vn_fill { VN_FILL_EVEN_ODD, VN_FILL_NONZERO } vn_fill;
-/// Clean outlines of what a painter fills by @p fill: no crossings, outer rings counter-clockwise, holes clockwise.
+/// Clean outlines of what a painter fills by @p fill: no crossings, outer rings counter-clockwise, holes
+/// clockwise.
 vn_status vn_rings_resolve(vn_rings *out, const vn_rings *rings, vn_fill fill);
 /// The outlines of a combination; both operands filled even-odd.
 vn_status vn_rings_combine(vn_rings *out, const vn_rings *a, const vn_rings *b, vn_combination how);
 
-/// The outlines of any 2D domain. Curved borders become polylines of equal area with about @p sides sides a circle.
+/// The outlines of any 2D domain. Curved borders become polylines of equal area with about @p sides sides a
+/// circle.
 vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *out);
 
-/// A polygon domain that takes over @p rings (left empty, also on failure), which vn_rings_resolve() has cleaned.
+/// A polygon domain that takes over @p rings (left empty, also on failure), which vn_rings_resolve() has
+/// cleaned.
 vn_status vn_domain_from_rings(vn_domain **out, vn_rings *rings, const char *unit);
 
 #endif

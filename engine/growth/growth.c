@@ -5,10 +5,11 @@
 static const vn_growth_def growth_default = {0};
 
 static const vn_field none_fields[] = {
-    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain", "the shape, which stays as it is"},
+    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain",
+     "the shape, which stays as it is"},
 };
-const vn_schema vn_none_schema = {"none", "A domain that does not grow", none_fields, 1, sizeof(vn_growth_def),
-                                  &growth_default};
+const vn_schema vn_none_schema = {"none", "A domain that does not grow", none_fields,
+                                  1,      sizeof(vn_growth_def),         &growth_default};
 
 vn_growth_def vn_growth_def_default(void) {
     return growth_default;
@@ -55,7 +56,8 @@ static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
         return VN_OK;
     }
     vn_rings rings = {0};
-    vn_status status = growth->base.dim == 2 ? vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings) : VN_OK;
+    vn_status status =
+        growth->base.dim == 2 ? vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings) : VN_OK;
     if (rings.y.count > 0) {
         lowest_point(&rings, growth->origin);
     }

@@ -1,4 +1,5 @@
-// Marginal growth (Runions et al. 2005, section 3.3): the margin is scaled about the petiole, the tissue stays.
+// Marginal growth (Runions et al. 2005, section 3.3): the margin is scaled about the petiole, the tissue
+// stays.
 
 #include "growth/growth.h"
 
@@ -8,7 +9,8 @@
 static const vn_growth_def marginal_default = {0};
 
 static const vn_field marginal_fields[] = {
-    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain", "the shape of the blade"},
+    {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain",
+     "the shape of the blade"},
     {"origin", VN_POINT, VN_OPTIONAL, offsetof(vn_growth_def, origin), -VN_HUGE, VN_HUGE, "length", NULL,
      "the petiole, about which the margin is scaled; left out: the lowest point of the outline"},
     {"from", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, from), 0, 1e150, "length", NULL,
@@ -18,8 +20,12 @@ static const vn_field marginal_fields[] = {
     {"step", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, step), 0, 1e150, "length", NULL,
      "the length that each step adds; left out: a hundredth of to - from"},
 };
-const vn_schema vn_marginal_schema = {"marginal", "A blade of which only the margin moves (Runions §3.3)",
-                                      marginal_fields, 5, sizeof(vn_growth_def), &marginal_default};
+const vn_schema vn_marginal_schema = {"marginal",
+                                      "A blade of which only the margin moves (Runions §3.3)",
+                                      marginal_fields,
+                                      5,
+                                      sizeof(vn_growth_def),
+                                      &marginal_default};
 
 static const vn_growth *growth_of(const vn_domain *domain) {
     return (const vn_growth *)domain;
@@ -106,8 +112,8 @@ static const vn_domain_kind marginal_kind = {.name = "blade",
                                              .outline = marginal_outline,
                                              .margin = &marginal_margin};
 
-// Every edge must turn left as seen from the origin. An edge whose line passes the origin on the wrong side by less than a
-// millionth of the blade is the rounding of whoever drew it.
+// Every edge must turn left as seen from the origin. An edge whose line passes the origin on the wrong side
+// by less than a millionth of the blade is the rounding of whoever drew it.
 static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
     double tolerance = 1e-6 * growth->own_length;
     const double *o = growth->origin;
@@ -117,10 +123,11 @@ static vn_status check_star(const vn_growth *growth, const vn_rings *rings) {
             int32_t j = i + 1 < end ? i + 1 : begin;
             const double *x = rings->x.data, *y = rings->y.data;
             if (vn_turn(o[0], o[1], x[i], y[i], x[j], y[j]) < -tolerance * hypot(x[j] - x[i], y[j] - y[i])) {
-                return vn_fail(VN_INVALID,
-                               "marginal: the blade is not star-shaped about its origin (%g, %g), so growth would erode "
-                               "it near (%g, %g): name another `origin`, one that sees the whole margin",
-                               o[0], o[1], x[i], y[i]);
+                return vn_fail(
+                    VN_INVALID,
+                    "marginal: the blade is not star-shaped about its origin (%g, %g), so growth would erode "
+                    "it near (%g, %g): name another `origin`, one that sees the whole margin",
+                    o[0], o[1], x[i], y[i]);
             }
         }
     }
@@ -140,11 +147,13 @@ static vn_status set_lengths(vn_growth *growth, const vn_growth_def *def) {
     growth->from = def->from > 0 ? def->from : growth->to / 20;
     growth->step = def->step > 0 ? def->step : (growth->to - growth->from) / 100;
     if (growth->from > growth->to) {
-        return vn_fail(VN_INVALID, "marginal.from = %g must not be above marginal.to = %g: a margin cannot shrink",
+        return vn_fail(VN_INVALID,
+                       "marginal.from = %g must not be above marginal.to = %g: a margin cannot shrink",
                        growth->from, growth->to);
     }
     if (growth->to > growth->from && (growth->to - growth->from) / growth->step > 1e8) {
-        return vn_fail(VN_INVALID, "marginal.step = %g takes more than 1e8 steps from %g to %g; give a longer one",
+        return vn_fail(VN_INVALID,
+                       "marginal.step = %g takes more than 1e8 steps from %g to %g; give a longer one",
                        growth->step, growth->from, growth->to);
     }
     return VN_OK;

@@ -1,4 +1,5 @@
-// The extra edges that close loops. A pair of nodes has one edge at most: a table of hashed pairs says whether it has one.
+// The extra edges that close loops. A pair of nodes has one edge at most: a table of hashed pairs says
+// whether it has one.
 
 #include "network/network.h"
 

@@ -1,5 +1,6 @@
-// Murray's law, r_parent^n = Σ r_child^n (Runions et al. 2005, section 3.5), for equal tips: r^n is the number of tips
-// times r_tip^n. So the network counts tips, which are integers and cannot drift, and powers are taken on demand.
+// Murray's law, r_parent^n = Σ r_child^n (Runions et al. 2005, section 3.5), for equal tips: r^n is the
+// number of tips times r_tip^n. So the network counts tips, which are integers and cannot drift, and powers
+// are taken on demand.
 
 #include "network/network.h"
 
@@ -11,8 +12,8 @@ static const vn_field murray_fields[] = {
     {"tip_radius", VN_F64, VN_ABOVE_MIN, offsetof(vn_murray_def, tip_radius), 0, VN_HUGE, "length", NULL,
      "radius of the edges that end in a tip"},
 };
-const vn_schema vn_murray_schema = {
-    "murray", "Radii by Murray's law", murray_fields, 2, sizeof(vn_murray_def), &murray_default};
+const vn_schema vn_murray_schema = {"murray", "Radii by Murray's law", murray_fields,
+                                    2,        sizeof(vn_murray_def),   &murray_default};
 
 vn_murray_def vn_murray_def_default(void) {
     return murray_default;
@@ -33,7 +34,8 @@ void vn_network_count_tips(const vn_network *network, int32_t *tips) {
 }
 
 void vn_network_settle(const vn_network *constant) {
-    vn_network *network = (vn_network *)constant; // the counts are a cache: their value was settled by the growth
+    vn_network *network =
+        (vn_network *)constant; // the counts are a cache: their value was settled by the growth
     if (network->recount) {
         vn_network_count_tips(network, network->tips.data);
     } else {
@@ -74,7 +76,8 @@ static double edge_radius(const vn_network *network, int32_t node) {
         return network->radius.count > 0 ? network->radius.data[node] : 0;
     }
     int32_t tips = network->tips.data[node];
-    return tips == 1 ? network->law.tip_radius : network->law.tip_radius * pow(tips, 1 / network->law.exponent);
+    return tips == 1 ? network->law.tip_radius
+                     : network->law.tip_radius * pow(tips, 1 / network->law.exponent);
 }
 
 double vn_network_radius(const vn_network *network, int32_t node) {

@@ -13,8 +13,8 @@ static const vn_field network_fields[] = {
     {"murray", VN_MIXED, 0, 0, 0, 0, "", "table {exponent=, tip_radius=}",
      "radii by Murray's law, kept up to date as the network grows"},
 };
-const vn_schema vn_network_schema = {
-    "network", "An empty network", network_fields, 4, sizeof(vn_network_def), &network_default};
+const vn_schema vn_network_schema = {"network", "An empty network",     network_fields,
+                                     4,         sizeof(vn_network_def), &network_default};
 
 vn_network_def vn_network_def_default(void) {
     return network_default;
@@ -130,7 +130,8 @@ static vn_status add_node(vn_network *network, int32_t parent, const double p[3]
         return vn_fail(VN_INVALID, "a node at (%g, %g, %g) is not finite", p[0], p[1], p[2]);
     }
     if (count >= network->max_nodes) {
-        return vn_fail(VN_LIMIT, "the network has reached network.max_nodes = %d nodes (raise it, or grow less)",
+        return vn_fail(VN_LIMIT,
+                       "the network has reached network.max_nodes = %d nodes (raise it, or grow less)",
                        network->max_nodes);
     }
     VN_TRY(reserve_nodes(network, (int64_t)count + 1));
@@ -220,11 +221,13 @@ static vn_status check_columns(const vn_network_columns *columns) {
             return vn_fail(VN_INVALID, "node %d at (%g, %g, %g) is not finite", i, p[0], p[1], p[2]);
         }
         if (parent < -1 || parent >= columns->count || parent == i) {
-            return vn_fail(VN_INVALID, "node %d has the parent %d, which must be -1 or another of the %d nodes", i,
+            return vn_fail(VN_INVALID,
+                           "node %d has the parent %d, which must be -1 or another of the %d nodes", i,
                            parent, columns->count);
         }
         if (columns->radius != NULL && !(columns->radius[i] >= 0 && columns->radius[i] <= VN_HUGE)) {
-            return vn_fail(VN_INVALID, "node %d has the radius %g, which must be 0 or more", i, columns->radius[i]);
+            return vn_fail(VN_INVALID, "node %d has the radius %g, which must be 0 or more", i,
+                           columns->radius[i]);
         }
     }
     return VN_OK;
@@ -248,7 +251,8 @@ static vn_status copy_columns(vn_network *network, const vn_network_columns *col
     int32_t count = columns->count;
     network->x.count = network->y.count = network->parent.count = count;
     network->z.count = network->dim == 3 ? count : 0;
-    network->first_child.count = network->next_child.count = network->tree.count = network->birth.count = count;
+    network->first_child.count = network->next_child.count = network->tree.count = network->birth.count =
+        count;
     for (int32_t i = 0; i < count; i++) {
         int32_t parent = columns->parent[i];
         if (parent >= 0) {
@@ -259,7 +263,8 @@ static vn_status copy_columns(vn_network *network, const vn_network_columns *col
     return VN_OK;
 }
 
-// Breadth first from the roots. Nodes that a circle of parents keeps out of reach are missed: then it is no forest.
+// Breadth first from the roots. Nodes that a circle of parents keeps out of reach are missed: then it is no
+// forest.
 static vn_status find_sequence(vn_network *network) {
     int32_t count = network->x.count;
     bool sorted = true;

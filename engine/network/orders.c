@@ -6,7 +6,8 @@ static double weight_of(const vn_network *network, const int32_t *tips, int32_t 
 }
 
 // The children are listed newest first; of equals the lower index leads, so the later of equals in the list.
-static int32_t thickest_child(const vn_network *network, const int32_t *tips, int32_t node, const int32_t *among) {
+static int32_t thickest_child(const vn_network *network, const int32_t *tips, int32_t node,
+                              const int32_t *among) {
     int32_t best = -1;
     double most = -1;
     int32_t highest = -1;

@@ -115,8 +115,8 @@ typedef struct walk {
     vn_nearest *query;
 } walk;
 
-// Buckets are shared between cells: a point is asked only from a bucket, wherever it lies, since every question
-// tests the distance itself; asking twice does not change an answer.
+// Buckets are shared between cells: a point is asked only from a bucket, wherever it lies, since every
+// question tests the distance itself; asking twice does not change an answer.
 static bool ask_cell(walk *w, int64_t i, int64_t j, int64_t k) {
     uint32_t bucket = bucket_of(w->grid, i, j, k);
     for (int32_t point = w->grid->heads.data[bucket]; point >= 0; point = w->grid->next.data[point]) {

@@ -1,4 +1,5 @@
-/// A growing set of points hashed into square cells: near ones in time that does not depend on how many there are.
+/// A growing set of points hashed into square cells: near ones in time that does not depend on how many there
+/// are.
 #ifndef VN_SPACE_POINT_GRID_H
 #define VN_SPACE_POINT_GRID_H
 
@@ -7,7 +8,7 @@
 /// Holds the points 0 .. count-1 of columns that the caller keeps and passes to each call.
 typedef struct vn_point_grid {
     int dim;
-    double cell;            ///< width of a cell; a query costs about (radius / cell)^dim cells
+    double cell;             ///< width of a cell; a query costs about (radius / cell)^dim cells
     VN_ARRAY(int32_t) heads; ///< of the chain of each bucket; a power of two of them
     VN_ARRAY(int32_t) next;  ///< of each point
     int64_t low[3], high[3]; ///< the cells in use
@@ -32,9 +33,9 @@ int32_t vn_point_grid_any_within(const vn_point_grid *grid, const vn_points *poi
 
 /// What vn_point_grid_nearest() looks for, and what it finds.
 typedef struct vn_nearest {
-    double reach2;              ///< in: squared reach, inclusive (INFINITY: any); out: the squared distance
-    int32_t point;              ///< out: the nearest point, or -1
-    uint64_t seed, id;          ///< in: of equally near points, that of the least vn_hash(seed, id, point, 0) is taken
+    double reach2;     ///< in: squared reach, inclusive (INFINITY: any); out: the squared distance
+    int32_t point;     ///< out: the nearest point, or -1
+    uint64_t seed, id; ///< in: of equally near points, that of the least vn_hash(seed, id, point, 0) is taken
     vn_point_accept_fn *accept; ///< in: may be NULL
     void *payload;
 } vn_nearest;

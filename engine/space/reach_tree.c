@@ -64,7 +64,8 @@ static void set_box(vn_reach_pack *pack, int i, const reach_box *box) {
     pack->reach2[i] = box->reach2;
 }
 
-static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const double *reach2, int32_t count) {
+static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const double *reach2,
+                            int32_t count) {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     vn_keyed_array keys = {0}, scratch = {0};
     vn_status status = vn_array_reserve(&keys, count);
@@ -96,7 +97,8 @@ static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const 
     return status;
 }
 
-static reach_box box_of_run(const vn_reach_tree *tree, int32_t run, const vn_points *points, const double *reach2) {
+static reach_box box_of_run(const vn_reach_tree *tree, int32_t run, const vn_points *points,
+                            const double *reach2) {
     reach_box box = empty_box();
     for (int32_t i = run * FAN; i < tree->items.count && i < (run + 1) * FAN; i++) {
         int32_t item = tree->items.data[i];
@@ -106,7 +108,8 @@ static reach_box box_of_run(const vn_reach_tree *tree, int32_t run, const vn_poi
 }
 
 // Level 0 boxes runs of items, every higher level the packs of the one below.
-static vn_status build_level(vn_reach_tree *tree, int32_t parts, const vn_points *points, const double *reach2) {
+static vn_status build_level(vn_reach_tree *tree, int32_t parts, const vn_points *points,
+                             const double *reach2) {
     int level = tree->levels;
     for (int32_t first = 0; first < parts; first += FAN) {
         vn_reach_pack pack;
@@ -150,8 +153,9 @@ typedef struct reach_query {
     vn_reach_hits *hits;
 } reach_query;
 
-// Bit i: part i may hold an answer. In single precision, on the safe side: p lies between low and high, and the factor
-// outweighs the rounding of squares and sums. The loops have no branches, so that a compiler makes vectors of them.
+// Bit i: part i may hold an answer. In single precision, on the safe side: p lies between low and high, and
+// the factor outweighs the rounding of squares and sums. The loops have no branches, so that a compiler makes
+// vectors of them.
 static unsigned may_answer(const vn_reach_pack *pack, const reach_query *q) {
     float d2[FAN] = {0};
     for (int k = 0; k < q->tree->dim; k++) {
@@ -197,8 +201,8 @@ static float most_of(const vn_reach_pack *pack) {
     return most;
 }
 
-// What is remembered only shrinks between builds (but for vn_reach_tree_raise()), so a bound may be stale but never
-// wrong; each visit renews it.
+// What is remembered only shrinks between builds (but for vn_reach_tree_raise()), so a bound may be stale but
+// never wrong; each visit renews it.
 static vn_status query_pack(const reach_query *q, int level, int32_t index) {
     vn_reach_tree *tree = q->tree;
     vn_reach_pack *pack = &tree->packs.data[tree->starts[level] + index];

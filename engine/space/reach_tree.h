@@ -1,5 +1,6 @@
 /// Points that each remember a squared distance: "which of them is this new point nearer to than what they
-/// remember?" A forest of boxes over the points along a space-filling curve answers in time proportional to the answer.
+/// remember?" A forest of boxes over the points along a space-filling curve answers in time proportional to
+/// the answer.
 #ifndef VN_SPACE_REACH_TREE_H
 #define VN_SPACE_REACH_TREE_H
 
@@ -8,8 +9,9 @@
 
 enum { VN_REACH_FAN = 8, VN_REACH_LEVELS = 12 };
 
-/// The boxes of eight runs of points, or of eight smaller packs, side by side so that they are tested together; and the
-/// largest squared distance that each run remembers: an upper bound, negative when nothing in it can answer any more.
+/// The boxes of eight runs of points, or of eight smaller packs, side by side so that they are tested
+/// together; and the largest squared distance that each run remembers: an upper bound, negative when nothing
+/// in it can answer any more.
 typedef struct vn_reach_pack {
     float low[3][VN_REACH_FAN], high[3][VN_REACH_FAN];
     float reach2[VN_REACH_FAN];
@@ -19,7 +21,8 @@ typedef struct vn_reach_tree {
     int dim;
     VN_ARRAY(int32_t) items; ///< the points along the curve, in runs of eight
     VN_ARRAY(vn_reach_pack) packs;
-    int32_t starts[VN_REACH_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1]); level 0 boxes runs
+    int32_t
+        starts[VN_REACH_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1]); level 0 boxes runs
     int levels;
 } vn_reach_tree;
 

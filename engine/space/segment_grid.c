@@ -17,7 +17,8 @@ typedef struct cell_range {
     int32_t x0, x1, y0, y1;
 } cell_range;
 
-static cell_range range_of(const vn_segment_grid *grid, double min_x, double min_y, double max_x, double max_y) {
+static cell_range range_of(const vn_segment_grid *grid, double min_x, double min_y, double max_x,
+                           double max_y) {
     return (cell_range){
         clamp_cell(floor((min_x - grid->min_x) / grid->cell), grid->columns),
         clamp_cell(floor((max_x - grid->min_x) / grid->cell), grid->columns),
@@ -30,8 +31,8 @@ static double size_of(const vn_segment_grid *grid) {
     return grid->cell * (grid->columns > grid->rows ? grid->columns : grid->rows);
 }
 
-// The cells of the columns [range.x0, range.x1] that the segment passes: per column the span of y, one cell wider on
-// either side than arithmetic can err.
+// The cells of the columns [range.x0, range.x1] that the segment passes: per column the span of y, one cell
+// wider on either side than arithmetic can err.
 static cell_range column_range(const vn_segment_grid *grid, const vn_segment *s, int32_t column) {
     // An edge that is all but upright turns a rounding of its column's sides into any length along it.
     double slack = 1e-9 * grid->cell + 1e-15 * (fabs(grid->min_x) + fabs(grid->min_y) + size_of(grid));
@@ -79,7 +80,8 @@ static void choose_cells(vn_segment_grid *grid) {
         high[0] = fmax(high[0], fmax(s->x0, s->x1));
         high[1] = fmax(high[1], fmax(s->y0, s->y1));
     }
-    // About as many cells as segments: an outline then leaves most cells empty, and a step crosses few of them.
+    // About as many cells as segments: an outline then leaves most cells empty, and a step crosses few of
+    // them.
     double size = fmax(high[0] - low[0], high[1] - low[1]);
     int32_t across = clamp_cell(ceil(sqrt(4.0 * grid->segments.count)), 2048) + 1;
     grid->min_x = low[0];
@@ -116,8 +118,8 @@ vn_status vn_segment_grid_build(vn_segment_grid *grid) {
     return VN_OK;
 }
 
-bool vn_segment_grid_visit(const vn_segment_grid *grid, double min_x, double min_y, double max_x, double max_y,
-                           vn_segment_visit_fn *visit, void *payload) {
+bool vn_segment_grid_visit(const vn_segment_grid *grid, double min_x, double min_y, double max_x,
+                           double max_y, vn_segment_visit_fn *visit, void *payload) {
     if (grid->columns == 0) {
         return true;
     }
@@ -186,13 +188,14 @@ static void try_ring(nearest_search *search, int32_t column, int32_t row, int32_
     }
 }
 
-int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y, double *distance2, double q[2]) {
+int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y, double *distance2,
+                                double q[2]) {
     nearest_search search = {grid, x, y, -1, INFINITY, {0, 0}};
     if (grid->columns > 0) {
         int32_t column = clamp_cell(floor((x - grid->min_x) / grid->cell), grid->columns);
         int32_t row = clamp_cell(floor((y - grid->min_y) / grid->cell), grid->rows);
-        // From a point outside the grid, rings are counted from the nearest cell: a ring's cells are then at least
-        // (ring - 1) cells away from the point too.
+        // From a point outside the grid, rings are counted from the nearest cell: a ring's cells are then at
+        // least (ring - 1) cells away from the point too.
         int32_t last = grid->columns > grid->rows ? grid->columns : grid->rows;
         for (int32_t ring = 0; ring <= last; ring++) {
             double least = (ring - 1) * grid->cell;

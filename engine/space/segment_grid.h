@@ -24,12 +24,13 @@ void vn_segment_grid_free(vn_segment_grid *grid);
 /// Return false to stop.
 typedef bool vn_segment_visit_fn(int32_t segment, void *payload);
 /// Visit every segment that shares a cell with the box; one may be visited several times. False when stopped.
-bool vn_segment_grid_visit(const vn_segment_grid *grid, double min_x, double min_y, double max_x, double max_y,
-                           vn_segment_visit_fn *visit, void *payload);
+bool vn_segment_grid_visit(const vn_segment_grid *grid, double min_x, double min_y, double max_x,
+                           double max_y, vn_segment_visit_fn *visit, void *payload);
 
 /// The segment nearest to (x, y), its squared distance and the nearest point; -1 when there are no segments.
 /// Of several equally near ones, the lowest index.
-int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y, double *distance2, double q[2]);
+int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y, double *distance2,
+                                double q[2]);
 
 /// Twice the signed area of the triangle a, b, c: positive when they turn left. Exact in sign.
 double vn_turn(double ax, double ay, double bx, double by, double cx, double cy);

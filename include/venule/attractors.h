@@ -32,41 +32,44 @@ VN_API vn_status vn_attractors_position(vn_attractors *attractors, int32_t index
 /// Those that were given up so far, and why.
 typedef struct vn_retired {
     int32_t hidden;  ///< no node sees them without leaving the domain
-    int32_t circled; ///< veins grew for them many times and came no nearer (segments too long for the kill distance)
+    int32_t circled; ///< veins grew for them many times and came no nearer (segments too long for the kill
+                     ///< distance)
 } vn_retired;
 VN_API vn_retired vn_attractors_retired(const vn_attractors *attractors);
 /// Those that wait beyond a marginal blade's margin.
 VN_API int32_t vn_attractors_dormant(const vn_attractors *attractors);
 
 typedef struct vn_throw_def {
-    vn_domain *domain;    ///< where; held by the set until it is destroyed when its margin grows
-    int32_t count;        ///< darts; or
-    double density;       ///< darts per area (volume) of the domain; what is less than one dart is carried to the next call
-    double spacing;       ///< birth distance b_s: a dart this close to an attractor is refused; 0: none is
-    double clearance;     ///< birth distance b_v: a dart this close to a node of `network` is refused; 0: none is
-    vn_network *network;  ///< what to keep clear of; may be NULL
-    vn_rng *rng;          ///< required; moves on by one
+    vn_domain *domain; ///< where; held by the set until it is destroyed when its margin grows
+    int32_t count;     ///< darts; or
+    double density;   ///< darts per area (volume) of the domain; what is less than one dart is carried to the
+                      ///< next call
+    double spacing;   ///< birth distance b_s: a dart this close to an attractor is refused; 0: none is
+    double clearance; ///< birth distance b_v: a dart this close to a node of `network` is refused; 0: none is
+    vn_network *network; ///< what to keep clear of; may be NULL
+    vn_rng *rng;         ///< required; moves on by one
 } vn_throw_def;
 VN_API vn_throw_def vn_throw_def_default(void);
-/// Throw darts, uniformly distributed over the domain; one after another each is accepted when it is farther than
-/// `spacing` from all attractors, those of this call included, and farther than `clearance` from all nodes.
-/// Into a marginal growth, the darts of the whole grown shape's square are thrown once, and each call releases those
-/// that the margin has passed since (READINGS R2). @p accepted gets how many were added. VN_INFEASIBLE when no dart can
-/// hit the domain.
+/// Throw darts, uniformly distributed over the domain; one after another each is accepted when it is farther
+/// than `spacing` from all attractors, those of this call included, and farther than `clearance` from all
+/// nodes. Into a marginal growth, the darts of the whole grown shape's square are thrown once, and each call
+/// releases those that the margin has passed since (READINGS R2). @p accepted gets how many were added.
+/// VN_INFEASIBLE when no dart can hit the domain.
 VN_API vn_status vn_throw(vn_attractors *attractors, const vn_throw_def *def, int32_t *accepted);
 /// Release the dormant attractors that the margin of the domain has passed; what vn_throw() does by itself.
 VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int32_t *released);
 
 typedef struct vn_influence_def {
-    int mode;      ///< 0 "nearest": each attractor influences the node nearest to it
-    double within; ///< attraction distance: nodes farther away are not influenced; 0 (the default): any distance
+    int mode; ///< 0 "nearest": each attractor influences the node nearest to it
+    double
+        within; ///< attraction distance: nodes farther away are not influenced; 0 (the default): any distance
 } vn_influence_def;
 VN_API vn_influence_def vn_influence_def_default(void);
 
 /// Which attractors influence which nodes: pairs sorted by attractor, then node.
 typedef struct vn_influence vn_influence;
-/// Find them. Equally near nodes are ranked by a hash of (seed, attractor, node). The result is good until the attractors
-/// or the network change; a later call may reuse @p *out, which is NULL at first.
+/// Find them. Equally near nodes are ranked by a hash of (seed, attractor, node). The result is good until
+/// the attractors or the network change; a later call may reuse @p *out, which is NULL at first.
 VN_API vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
                                    const vn_influence_def *def);
 VN_API void vn_influence_destroy(vn_influence *influence);
@@ -82,13 +85,14 @@ typedef struct vn_extend_def {
     vn_domain *domain; ///< an edge that would leave it is not made; may be NULL
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
-/// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that direction vanishes,
-/// or has a child already, the node grows toward its first-ranked attractor alone (READINGS R3). Where the edge would leave
-/// the domain, each of the attractors is tried alone, then given to the nearest node that sees it, or it waits for one;
-/// what still waits when nothing else can grow is retired. @p added gets how many nodes there are more, @p first the index of the first. Counts the network's step on.
-/// When it adds none, and neither attractors nor domain change, no later call will.
-VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def, int32_t *added,
-                           int32_t *first);
+/// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that
+/// direction vanishes, or has a child already, the node grows toward its first-ranked attractor alone
+/// (READINGS R3). Where the edge would leave the domain, each of the attractors is tried alone, then given to
+/// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
+/// retired. @p added gets how many nodes there are more, @p first the index of the first. Counts the
+/// network's step on. When it adds none, and neither attractors nor domain change, no later call will.
+VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,
+                           int32_t *added, int32_t *first);
 
 typedef struct vn_consume_def {
     double distance;     ///< kill distance d_k; > 0; default 1

@@ -55,8 +55,8 @@ VN_API const char *vn_version(void);
 /// Every failure passes here: it is the one place for a breakpoint.
 VN_API vn_status vn_fail(vn_status status, const char *format, ...) VN_PRINTF(2, 3);
 
-/// The message of the last failure in the calling thread: one line without a full stop or a newline; "" at first.
-/// Borrowed; valid until the thread's next failure.
+/// The message of the last failure in the calling thread: one line without a full stop or a newline; "" at
+/// first. Borrowed; valid until the thread's next failure.
 VN_API const char *vn_message(void);
 
 /// The exit status of a program that ends with @p status: 0, 1, 3, 4, 5 or 130.
@@ -77,8 +77,8 @@ VN_API void vn_byte_peak_reset(void);
 /// Refuse allocations that would bring vn_byte_count() above @p bytes; 0 lifts the budget.
 VN_API void vn_set_memory_budget(size_t bytes);
 
-/// From the @p nth allocation on (counted from now, 0 is the next), refuse them all; a negative value stops that.
-/// For tests.
+/// From the @p nth allocation on (counted from now, 0 is the next), refuse them all; a negative value stops
+/// that. For tests.
 VN_API void vn_fail_allocations_from(int64_t nth);
 
 /// Let vn_poll() fail with VN_LIMIT once @p seconds of wall time have passed; 0 lifts the limit.
@@ -87,11 +87,12 @@ VN_API void vn_set_time_budget(double seconds);
 /// Ask the running call to end at its next step. May be called from a signal handler.
 VN_API void vn_interrupt(void);
 
-/// VN_OK, or VN_INTERRUPTED after vn_interrupt() (which this call then forgets), or VN_LIMIT past the time budget.
-/// Long loops of the engine ask once in a while; a host may ask too.
+/// VN_OK, or VN_INTERRUPTED after vn_interrupt() (which this call then forgets), or VN_LIMIT past the time
+/// budget. Long loops of the engine ask once in a while; a host may ask too.
 VN_API vn_status vn_poll(void);
 
-/// Threads that parallel loops may use: 1 or more, 0 for as many as the machine has. Results never depend on it.
+/// Threads that parallel loops may use: 1 or more, 0 for as many as the machine has. Results never depend on
+/// it.
 VN_API void vn_set_threads(int threads);
 
 /// A stream of random numbers that is a pure function of (seed, stream, counter): number k of a stream can be
@@ -121,7 +122,8 @@ VN_API double vn_rng_normal(vn_rng *rng, double mean, double deviation);
 VN_API int64_t vn_rng_integer(vn_rng *rng, int64_t low, int64_t high);
 
 /// Set @p rng's next numbers apart: returns a fresh stream and moves @p rng on by one.
-/// A primitive that needs many numbers takes a fork, so that the caller's own sequence does not depend on how many.
+/// A primitive that needs many numbers takes a fork, so that the caller's own sequence does not depend on how
+/// many.
 VN_API vn_rng vn_rng_fork(vn_rng *rng);
 
 #ifdef __cplusplus

@@ -42,10 +42,12 @@ typedef struct vn_box_def {
 VN_API vn_box_def vn_box_def_default(void);
 VN_API vn_status vn_domain_box(vn_domain **out, const vn_box_def *def);
 
-/// A polygon with holes. @p xy holds the rings one after another as x, y, x, y, …; ring i has @p ring_sizes[i] points
-/// (3 or more, the first not repeated at the end). Orientation is free: a ring inside an odd number of others is a
-/// hole. VN_INVALID for a ring that crosses itself or another (the message says where), has no area or is not finite.
-VN_API vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int32_t *ring_sizes, int32_t rings);
+/// A polygon with holes. @p xy holds the rings one after another as x, y, x, y, …; ring i has @p
+/// ring_sizes[i] points (3 or more, the first not repeated at the end). Orientation is free: a ring inside an
+/// odd number of others is a hole. VN_INVALID for a ring that crosses itself or another (the message says
+/// where), has no area or is not finite.
+VN_API vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int32_t *ring_sizes,
+                                   int32_t rings);
 
 typedef struct vn_profile_def {
     double length;            ///< from base (0, 0) to tip (0, length); > 0; default 1
@@ -57,10 +59,12 @@ VN_API vn_profile_def vn_profile_def_default(void);
 VN_API vn_status vn_domain_profile(vn_domain **out, const vn_profile_def *def);
 
 typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_combination;
-/// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every answer.
-/// Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere it is never more
-/// than the true distance. VN_INVALID when the dimensions differ; VN_INFEASIBLE when nothing is left.
-VN_API vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b, vn_combination how);
+/// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every
+/// answer. Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere
+/// it is never more than the true distance. VN_INVALID when the dimensions differ; VN_INFEASIBLE when nothing
+/// is left.
+VN_API vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b,
+                                   vn_combination how);
 
 /// 2 or 3.
 VN_API int vn_domain_dim(const vn_domain *domain);
@@ -75,13 +79,14 @@ VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);
 VN_API double vn_domain_distance(const vn_domain *domain, const double p[3]);
 /// The point @p q of the border that is nearest to @p p.
 VN_API void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]);
-/// Whether the straight line from @p a to @p b stays inside from end to end. An end on the border (within 1e-6 of the size
-/// of the bounds) counts as inside: veins start at a petiole.
+/// Whether the straight line from @p a to @p b stays inside from end to end. An end on the border (within
+/// 1e-6 of the size of the bounds) counts as inside: veins start at a petiole.
 VN_API bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]);
 /// The domain's value at @p p, in [0, 1]: 1 inside and 0 outside where it has no values of its own.
 VN_API double vn_domain_value(const vn_domain *domain, const double p[3]);
 
-/// A uniformly distributed point inside, into @p p. VN_INFEASIBLE when a million darts into its bounds all miss.
+/// A uniformly distributed point inside, into @p p. VN_INFEASIBLE when a million darts into its bounds all
+/// miss.
 VN_API vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]);
 
 #ifdef __cplusplus

@@ -12,21 +12,21 @@ extern "C" {
 typedef struct vn_growth vn_growth;
 
 typedef struct vn_growth_def {
-    vn_domain *domain;      ///< the grown shape; held, not taken over
-    double origin[3];       ///< the petiole, which stays where it is; used when `has_origin`
-    bool has_origin;        ///< false: the lowest point of the outline, or the middle of a flat base
-    double from;            ///< length at first, > 0; 0: a twentieth of `to`
-    double to;              ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
-    double step;            ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
+    vn_domain *domain; ///< the grown shape; held, not taken over
+    double origin[3];  ///< the petiole, which stays where it is; used when `has_origin`
+    bool has_origin;   ///< false: the lowest point of the outline, or the middle of a flat base
+    double from;       ///< length at first, > 0; 0: a twentieth of `to`
+    double to;         ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
+    double step;       ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
 } vn_growth_def;
 VN_API vn_growth_def vn_growth_def_default(void);
 
 /// A domain that stays as it is.
 VN_API vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def);
-/// Marginal growth (Runions §3.3, READINGS R2): only the margin moves, from a blade of length `from` to one of `to`, both
-/// scaled about the origin. What lies inside stays where it is. Attractors thrown into it are thrown over the largest
-/// shape at once, and released when the margin has passed them.
-/// VN_INVALID when the outline is not star-shaped about the origin: its growth would erode the blade.
+/// Marginal growth (Runions §3.3, READINGS R2): only the margin moves, from a blade of length `from` to one
+/// of `to`, both scaled about the origin. What lies inside stays where it is. Attractors thrown into it are
+/// thrown over the largest shape at once, and released when the margin has passed them. VN_INVALID when the
+/// outline is not star-shaped about the origin: its growth would erode the blade.
 VN_API vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def);
 VN_API void vn_growth_release(vn_growth *growth);
 

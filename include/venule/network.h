@@ -14,9 +14,9 @@ extern "C" {
 typedef struct vn_network vn_network;
 
 typedef struct vn_network_def {
-    int32_t dim;        ///< 2 or 3; default 2
-    int32_t max_nodes;  ///< a network that grows beyond it fails with VN_LIMIT; default 100,000,000
-    const char *unit;   ///< the length unit that files carry ("mm"), "" for none; copied
+    int32_t dim;       ///< 2 or 3; default 2
+    int32_t max_nodes; ///< a network that grows beyond it fails with VN_LIMIT; default 100,000,000
+    const char *unit;  ///< the length unit that files carry ("mm"), "" for none; copied
 } vn_network_def;
 VN_API vn_network_def vn_network_def_default(void);
 VN_API vn_status vn_network_create(vn_network **out, const vn_network_def *def);
@@ -45,7 +45,8 @@ VN_API int vn_network_dim(const vn_network *network);
 VN_API const char *vn_network_unit(const vn_network *network);
 VN_API int32_t vn_network_count(const vn_network *network);
 VN_API int32_t vn_network_join_count(const vn_network *network);
-VN_API void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b, double *radius);
+VN_API void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b,
+                                 double *radius);
 
 /// Columns, one entry a node; borrowed until the network next changes. `z` is NULL in 2D.
 VN_API const double *vn_network_x(const vn_network *network);
@@ -61,12 +62,12 @@ VN_API const int32_t *vn_network_birth(const vn_network *network);
 VN_API int32_t vn_network_first_child(const vn_network *network, int32_t node);
 VN_API int32_t vn_network_next_child(const vn_network *network, int32_t child);
 
-/// The radius of the edge between @p node and its parent; at a root, that of its thickest child. 0 where nothing is
-/// known of radii: neither vn_network_murray() nor a file gave them.
+/// The radius of the edge between @p node and its parent; at a root, that of its thickest child. 0 where
+/// nothing is known of radii: neither vn_network_murray() nor a file gave them.
 VN_API double vn_network_radius(const vn_network *network, int32_t node);
 
-/// The nodes so that every parent comes before its children; borrowed until the network next changes. The one order
-/// in which everything walks the network. NULL means the order of the indices themselves.
+/// The nodes so that every parent comes before its children; borrowed until the network next changes. The one
+/// order in which everything walks the network. NULL means the order of the indices themselves.
 VN_API vn_status vn_network_order(const vn_network *network, const int32_t **order);
 
 typedef enum vn_order_kind {
@@ -76,7 +77,8 @@ typedef enum vn_order_kind {
 } vn_order_kind;
 /// Compute the order of every node's edge; read by vn_network_orders(). At equal width the lower index leads.
 VN_API vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind);
-/// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or are outdated.
+/// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or are
+/// outdated.
 VN_API const int32_t *vn_network_orders(const vn_network *network);
 
 /// What a network measures.

@@ -14,14 +14,14 @@ extern "C" {
 typedef struct vn_canvas vn_canvas;
 
 typedef struct vn_canvas_def {
-    double width;           ///< pixels, 1 to 32,767; 0: from the height and the view's proportions, or 800
-    double height;          ///< likewise
-    vn_box view;            ///< what is fitted, centred, into the canvas: a domain's bounds; empty: the canvas itself,
-                            ///< with (0, 0) at its lower left
-    double margin;          ///< kept free around the view, pixels, 0 or more; default 10
+    double width;  ///< pixels, 1 to 32,767; 0: from the height and the view's proportions, or 800
+    double height; ///< likewise
+    vn_box view;   ///< what is fitted, centred, into the canvas: a domain's bounds; empty: the canvas itself,
+                   ///< with (0, 0) at its lower left
+    double margin; ///< kept free around the view, pixels, 0 or more; default 10
     const char *background; ///< a colour, or "none"; default "none"
-    const char *unit;       ///< length unit of the view: "mm", "cm", "m", "um", "in", "pt". Pages (SVG, PDF) are then at
-                            ///< true scale; "" (the default): 96 pixels an inch
+    const char *unit; ///< length unit of the view: "mm", "cm", "m", "um", "in", "pt". Pages (SVG, PDF) are
+                      ///< then at true scale; "" (the default): 96 pixels an inch
 } vn_canvas_def;
 VN_API vn_canvas_def vn_canvas_def_default(void);
 VN_API vn_status vn_canvas_create(vn_canvas **out, const vn_canvas_def *def);
@@ -44,11 +44,11 @@ VN_API vn_fill_def vn_fill_def_default(void);
 VN_API vn_status vn_canvas_fill(vn_canvas *canvas, const vn_domain *domain, const vn_fill_def *def);
 
 typedef struct vn_stroke_def {
-    const char *color;         ///< default "#2f4f2a"
-    double opacity;            ///< 0 to 1; default 1
-    double width;              ///< of all edges, in view units; 0 (the default): twice each edge's radius
-    const double *widths;      ///< or the width of each node's edge, one entry a node; borrowed during the call
-    double min_width;          ///< no edge is drawn thinner than this, pixels; default 0.3
+    const char *color;    ///< default "#2f4f2a"
+    double opacity;       ///< 0 to 1; default 1
+    double width;         ///< of all edges, in view units; 0 (the default): twice each edge's radius
+    const double *widths; ///< or the width of each node's edge, one entry a node; borrowed during the call
+    double min_width;     ///< no edge is drawn thinner than this, pixels; default 0.3
 } vn_stroke_def;
 VN_API vn_stroke_def vn_stroke_def_default(void);
 /// Draw a network's edges and joins with round ends, tapered where a vein's radius changes.
@@ -76,16 +76,18 @@ VN_API vn_text_def vn_text_def_default(void);
 /// One line of UTF-8 in DejaVu Sans.
 VN_API vn_status vn_canvas_text(vn_canvas *canvas, const char *text, const vn_text_def *def);
 
-/// Write the picture: .png, .svg or .pdf by the extension of @p path. @p manifest (JSON, may be NULL) goes inside.
-/// VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
+/// Write the picture: .png, .svg or .pdf by the extension of @p path. @p manifest (JSON, may be NULL) goes
+/// inside. VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
 VN_API vn_status vn_canvas_save(const vn_canvas *canvas, const char *path, const char *manifest);
 
-/// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names are given.
+/// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names are
+/// given.
 VN_API vn_status vn_network_save(const vn_network *network, const char *path, const char *manifest);
 VN_API vn_status vn_networks_save(const vn_network *const *networks, const char *const *names, int32_t count,
                                   const char *path, const char *manifest);
 
-/// Networks read from one file; names[i] is "" when it held a single one. Destroy each, then vn_networks_free().
+/// Networks read from one file; names[i] is "" when it held a single one. Destroy each, then
+/// vn_networks_free().
 typedef struct vn_network_set {
     vn_network **networks;
     char **names;
@@ -99,13 +101,13 @@ VN_API void vn_networks_free(vn_network_set *set);
 typedef struct vn_svg_def {
     const char *id;   ///< of a shape or of a group of shapes; NULL: pick
     int pick;         ///< 0 "largest": the shape of the largest area; 1 "all": everything filled, united
-    double tolerance; ///< curves become polylines that are within this of them, in the file's units; default 0: 1e-4 of
-                      ///< the shape's size
-    bool repair;      ///< accept outlines that cross themselves, and fill them as a painter would; default false
+    double tolerance; ///< curves become polylines that are within this of them, in the file's units; default
+                      ///< 0: 1e-4 of the shape's size
+    bool repair; ///< accept outlines that cross themselves, and fill them as a painter would; default false
 } vn_svg_def;
 VN_API vn_svg_def vn_svg_def_default(void);
-/// The outline of a shape in an SVG file, y up. Coordinates are user units of the outermost viewBox with its lower left
-/// corner at (0, 0), or millimetres when the file gives its width in mm, cm, in or pt.
+/// The outline of a shape in an SVG file, y up. Coordinates are user units of the outermost viewBox with its
+/// lower left corner at (0, 0), or millimetres when the file gives its width in mm, cm, in or pt.
 VN_API vn_status vn_domain_svg(vn_domain **out, const char *path, const vn_svg_def *def);
 
 #ifdef __cplusplus

@@ -68,14 +68,16 @@ static int attractors_consume(lua_State *L) {
 static const vnl_function methods[] = {
     {"add", attractors_add, "(x: number, y: number, z?: number)", NULL, "Add one.", NULL},
     {"throw", attractors_throw, "(options: venule.throw.Options): integer", NULL,
-     "Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all attractors and "
+     "Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all "
+     "attractors and "
      "farther than `clearance` from all nodes of `network` (Runions §3.3).",
      &vn_throw_schema},
-    {"influence", attractors_influence, "(network: venule.Network, options?: venule.influence.Options): venule.Influence",
-     NULL, "Which attractors influence which nodes; good until the attractors or the network change.",
+    {"influence", attractors_influence,
+     "(network: venule.Network, options?: venule.influence.Options): venule.Influence", NULL,
+     "Which attractors influence which nodes; good until the attractors or the network change.",
      &vn_influence_schema},
-    {"consume", attractors_consume, "(network: venule.Network, options: venule.consume.Options): integer", NULL,
-     "Remove the attractors that the network has reached; how many.", &vn_consume_schema},
+    {"consume", attractors_consume, "(network: venule.Network, options: venule.consume.Options): integer",
+     NULL, "Remove the attractors that the network has reached; how many.", &vn_consume_schema},
     {0},
 };
 
@@ -135,15 +137,15 @@ static int attractors_length(lua_State *L) {
     return 1;
 }
 
-static const char *const fields[] = {
-    "x: number[] | the attractors' coordinates",
-    "y: number[] | the attractors' coordinates",
-    "z: number[] | the attractors' coordinates; 0 in 2D",
-    "dim: integer | 2 or 3",
-    "dormant: integer | how many wait beyond a growing margin",
-    "retired: {hidden: integer, circled: integer} | how many were given up: hidden, as no node sees them without leaving the "
-    "domain; circled, as veins grew for them and came no nearer",
-    NULL};
+static const char *const fields[] = {"x: number[] | the attractors' coordinates",
+                                     "y: number[] | the attractors' coordinates",
+                                     "z: number[] | the attractors' coordinates; 0 in 2D",
+                                     "dim: integer | 2 or 3",
+                                     "dormant: integer | how many wait beyond a growing margin",
+                                     "retired: {hidden: integer, circled: integer} | how many were given up: "
+                                     "hidden, as no node sees them without leaving the "
+                                     "domain; circled, as veins grew for them and came no nearer",
+                                     NULL};
 
 const vnl_class vnl_attractors_class = {
     .name = "attractors",
@@ -215,6 +217,7 @@ const vnl_class vnl_influence_class = {
 };
 
 const vnl_function vnl_attractors_functions[] = {
-    {"attractors", make_attractors, NULL, "venule.Attractors", "An empty set of attractors.", &vn_attractors_schema},
+    {"attractors", make_attractors, NULL, "venule.Attractors", "An empty set of attractors.",
+     &vn_attractors_schema},
     {0},
 };

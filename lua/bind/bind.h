@@ -1,6 +1,6 @@
-/// What the bindings share. A binding checks its arguments, calls the engine and pushes the result; geometry and
-/// policy live elsewhere. Everything here may raise a Lua error, so nothing that owns memory may be held across a call,
-/// except in a userdata.
+/// What the bindings share. A binding checks its arguments, calls the engine and pushes the result; geometry
+/// and policy live elsewhere. Everything here may raise a Lua error, so nothing that owns memory may be held
+/// across a call, except in a userdata.
 #ifndef VN_BIND_BIND_H
 #define VN_BIND_BIND_H
 
@@ -14,7 +14,8 @@
 typedef struct vnl_function {
     const char *name;
     lua_CFunction call;
-    const char *signature;   ///< as LuaCATS writes it: "(x: number, y: number): boolean"; NULL: one table of options
+    const char
+        *signature; ///< as LuaCATS writes it: "(x: number, y: number): boolean"; NULL: one table of options
     const char *returns;     ///< with options: the type of what comes back
     const char *doc;         ///< one or two sentences
     const vn_schema *schema; ///< the table of options, or NULL
@@ -26,8 +27,9 @@ typedef struct vnl_class {
     const char *doc;
     const vnl_function *methods; ///< ended by a zeroed one
     const vnl_function *extra;   ///< more methods, shared with another class; may be NULL
-    const char *const *fields;   ///< "x: number[] | each node's …", ended by NULL; for the reference; may be NULL
-    lua_CFunction field;         ///< reads a field: (object, key) → value, or nothing; may be NULL
+    const char *const
+        *fields;         ///< "x: number[] | each node's …", ended by NULL; for the reference; may be NULL
+    lua_CFunction field; ///< reads a field: (object, key) → value, or nothing; may be NULL
     void (*release)(void *object);
     lua_CFunction length; ///< __len; may be NULL
 } vnl_class;
@@ -73,9 +75,9 @@ int vnl_fail(lua_State *L, const char *format, ...) VN_PRINTF(2, 3);
 /// The status of the last raised error, and whether @p message is that error's text. For the host.
 vn_status vnl_status_of(lua_State *L, const char *message);
 
-/// Read the table of options at @p index into @p def, strictly: unknown fields are refused with a suggestion, types and
-/// ranges checked, required fields demanded. VN_MIXED fields are left to the caller. Text stays valid while the table
-/// lives.
+/// Read the table of options at @p index into @p def, strictly: unknown fields are refused with a suggestion,
+/// types and ranges checked, required fields demanded. VN_MIXED fields are left to the caller. Text stays
+/// valid while the table lives.
 void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def);
 /// Whether the table at @p index has the field; used where "not given" differs from every value.
 bool vnl_has(lua_State *L, int index, const char *field);
@@ -90,13 +92,15 @@ int vnl_push_coordinates(lua_State *L, int dim, const double p[3]);
 /// Push {min = {…}, max = {…}}.
 void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit);
 
-/// The file that a script means by argument @p index: a relative path is looked for beside the script, then in the working
-/// folder. Valid while it is on the stack, where it is left.
+/// The file that a script means by argument @p index: a relative path is looked for beside the script, then
+/// in the working folder. Valid while it is on the stack, where it is left.
 const char *vnl_push_path(lua_State *L, int index);
-/// Push the JSON that files carry about how they were made; valid while it is on the stack, NULL where nobody knows.
+/// Push the JSON that files carry about how they were made; valid while it is on the stack, NULL where nobody
+/// knows.
 const char *vnl_push_manifest(lua_State *L);
 
-/// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and ipairs().
+/// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and
+/// ipairs().
 /// @p read pushes entry @p i (0-based) of it.
 typedef void vnl_read_fn(lua_State *L, void *object, int32_t i);
 typedef int32_t vnl_count_fn(void *object);

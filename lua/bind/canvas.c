@@ -17,8 +17,9 @@ static vn_canvas *check_canvas(lua_State *L) {
 static void read_view(lua_State *L, vn_canvas_def *def) {
     if (lua_getfield(L, 1, "view") != LUA_TNIL) {
         if (!lua_istable(L, -1)) {
-            vnl_fail(L, "canvas.view: {min = {x, y}, max = {x, y}} expected, as domain:bounds() gives it, got %s",
-                     luaL_typename(L, -1));
+            vnl_fail(
+                L, "canvas.view: {min = {x, y}, max = {x, y}} expected, as domain:bounds() gives it, got %s",
+                luaL_typename(L, -1));
         }
         lua_getfield(L, -1, "min");
         vnl_read_point(L, -1, "canvas.view.min", def->view.min);
@@ -151,14 +152,16 @@ static const vnl_function methods[] = {
     {"fill", canvas_fill, "(domain: venule.Domain|venule.Growth, options?: venule.fill.Options)", NULL,
      "Fill a domain, or today's shape of a growth.", &vn_fill_schema},
     {"stroke", canvas_stroke, "(network: venule.Network, options?: venule.stroke.Options)", NULL,
-     "Draw a network with round ends, tapered where radii differ. `width` is \"radius\" (the default), a number, or a "
+     "Draw a network with round ends, tapered where radii differ. `width` is \"radius\" (the default), a "
+     "number, or a "
      "function of the node.",
      &vn_stroke_schema},
     {"dots", canvas_dots, "(points: venule.Attractors|number[][], options?: venule.dots.Options)", NULL,
      "A dot at each attractor, or at each point {x, y} of a list.", &vn_dots_schema},
     {"text", canvas_text, "(text: string, options: venule.text.Options)", NULL, "Write one line of text.",
      &vn_text_schema},
-    {"save", canvas_save, "(path: string)", NULL, "Write the picture: .png, .svg or .pdf by the path's extension.", NULL},
+    {"save", canvas_save, "(path: string)", NULL,
+     "Write the picture: .png, .svg or .pdf by the path's extension.", NULL},
     {0},
 };
 

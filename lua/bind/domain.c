@@ -10,10 +10,11 @@ static const vn_throw_def sample_default = {0};
 static const vn_field sample_fields[] = {
     {"spacing", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_throw_def, spacing), 0, 1e150, "length", NULL,
      "a point this close to an earlier one is refused; left out: none is"},
-    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng", "the random numbers: venule.rng(seed)"},
+    {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng",
+     "the random numbers: venule.rng(seed)"},
 };
-static const vn_schema sample_schema = {"sample", "Uniformly distributed points", sample_fields, 2, sizeof(vn_throw_def),
-                                        &sample_default};
+static const vn_schema sample_schema = {"sample", "Uniformly distributed points", sample_fields,
+                                        2,        sizeof(vn_throw_def),           &sample_default};
 
 static void release_domain(void *object) {
     vn_domain_release(object);
@@ -171,13 +172,15 @@ const vnl_function vnl_domain_functions[] = {
     {"sphere", make_sphere, NULL, "venule.Domain", "A ball in 3D.", &vn_disk_schema},
     {"box", make_box, NULL, "venule.Domain", "An upright rectangle, or in 3D a box.", &vn_box_schema},
     {"polygon", make_polygon, "(rings: number[][][]): venule.Domain", NULL,
-     "A polygon with holes: `polygon{outer, hole, …}`, each ring a list of points {x, y}; a single ring may stand without "
+     "A polygon with holes: `polygon{outer, hole, …}`, each ring a list of points {x, y}; a single ring may "
+     "stand without "
      "the outer braces. Orientation is free; a ring inside another is a hole.",
      NULL},
-    {"profile", make_profile, NULL, "venule.Domain", "A leaf blade by its half width along the midrib, the y axis.",
-     &vn_profile_schema},
+    {"profile", make_profile, NULL, "venule.Domain",
+     "A leaf blade by its half width along the midrib, the y axis.", &vn_profile_schema},
     {"svg", make_svg, "(path: string, options?: venule.svg.Options): venule.Domain", NULL,
-     "The outline of a shape in an SVG file, y up: in the user units of its viewBox, whose lower left corner becomes "
+     "The outline of a shape in an SVG file, y up: in the user units of its viewBox, whose lower left corner "
+     "becomes "
      "(0, 0), or in mm when the file gives its width in mm, cm, in or pt.",
      &vn_svg_schema},
     {0},
@@ -291,10 +294,12 @@ static int domain_field(lua_State *L) {
     return 0;
 }
 
-static const char *const fields[] = {"dim: integer | 2 or 3", "unit: string | the length unit of its file, or \"\"", NULL};
+static const char *const fields[] = {"dim: integer | 2 or 3",
+                                     "unit: string | the length unit of its file, or \"\"", NULL};
 
 const vnl_function vnl_domain_methods[] = {
-    {"contains", domain_contains, "(x: number, y: number, z?: number): boolean", NULL, "Whether a point is inside.", NULL},
+    {"contains", domain_contains, "(x: number, y: number, z?: number): boolean", NULL,
+     "Whether a point is inside.", NULL},
     {"distance", domain_distance, "(x: number, y: number, z?: number): number", NULL,
      "The distance to the border: positive inside, negative outside.", NULL},
     {"closest", domain_closest, "(x: number, y: number, z?: number): number, number, number?", NULL,
@@ -304,11 +309,14 @@ const vnl_function vnl_domain_methods[] = {
     {"bounds", domain_bounds, "(): venule.Bounds", NULL, "The box around it: {min = {…}, max = {…}}.", NULL},
     {"measure", domain_measure, "(): number", NULL, "Its area, or in 3D its volume.", NULL},
     {"sample", domain_sample, "(n: integer, options: venule.sample.Options): number[][]", NULL,
-     "Throw n darts, uniformly distributed; the points {x, y} of those that stick. `rng` is required; with `spacing` a "
+     "Throw n darts, uniformly distributed; the points {x, y} of those that stick. `rng` is required; with "
+     "`spacing` a "
      "dart that close to an earlier one is refused.",
      &sample_schema},
-    {"__sub", domain_minus, "(other: venule.Domain): venule.Domain", NULL, "`a - b`: what is in a and not in b.", NULL},
-    {"__add", domain_plus, "(other: venule.Domain): venule.Domain", NULL, "`a + b`: what is in a or in b.", NULL},
+    {"__sub", domain_minus, "(other: venule.Domain): venule.Domain", NULL,
+     "`a - b`: what is in a and not in b.", NULL},
+    {"__add", domain_plus, "(other: venule.Domain): venule.Domain", NULL, "`a + b`: what is in a or in b.",
+     NULL},
     {"__mul", domain_times, "(other: venule.Domain): venule.Domain", NULL, "`a * b`: what is in both.", NULL},
     {0},
 };

@@ -33,7 +33,8 @@ static int make_marginal(lua_State *L) {
 const vnl_function vnl_growth_functions[] = {
     {"none", make_none, NULL, "venule.Growth", "A domain that stays as it is.", &vn_none_schema},
     {"marginal", make_marginal, NULL, "venule.Growth",
-     "A blade of which only the margin moves, scaled about the petiole (Runions §3.3). Attractors thrown into it are thrown "
+     "A blade of which only the margin moves, scaled about the petiole (Runions §3.3). Attractors thrown "
+     "into it are thrown "
      "over the largest shape at once, and released as the margin passes them.",
      &vn_marginal_schema},
     {0},
@@ -59,7 +60,8 @@ static int growth_advance(lua_State *L) {
         if (attractors != NULL) {
             vnl_try(L, vn_release(attractors, network, &released));
         } else if (vnl_test(L, i, &vnl_network_class) == NULL) {
-            return vnl_fail(L, "growth:advance: networks and attractors expected, got %s", luaL_typename(L, i));
+            return vnl_fail(L, "growth:advance: networks and attractors expected, got %s",
+                            luaL_typename(L, i));
         }
     }
     lua_pushboolean(L, growing);
@@ -78,7 +80,8 @@ static int growth_map(lua_State *L) {
 
 static const vnl_function methods[] = {
     {"advance", growth_advance, "(...: venule.Network|venule.Attractors): boolean", NULL,
-     "Grow by one step; the attractors that the margin has passed are released, away from the network. False when it was "
+     "Grow by one step; the attractors that the margin has passed are released, away from the network. False "
+     "when it was "
      "grown already.",
      NULL},
     {"map", growth_map, "(x: number, y: number, t1: number, t2: number): number, number", NULL,
@@ -114,10 +117,13 @@ static int growth_field(lua_State *L) {
 }
 
 static const char *const fields[] = {
-    "time: integer | steps taken", "length: number | today's length",
+    "time: integer | steps taken",
+    "length: number | today's length",
     "final_length: number | the length when grown",
     "unit: number | today's unit length in the simulation's coordinates: 1 at first (READINGS R7)",
-    "origin: number[] | the petiole {x, y}, which stays where it is", "dim: integer | 2 or 3", NULL};
+    "origin: number[] | the petiole {x, y}, which stays where it is",
+    "dim: integer | 2 or 3",
+    NULL};
 
 const vnl_class vnl_growth_class = {
     .name = "growth",

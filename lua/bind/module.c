@@ -46,7 +46,8 @@ static int closest_name(lua_State *L) {
 }
 
 const vnl_function vnl_module_functions[] = {
-    {"rng", make_rng, "(seed: integer): venule.Rng", NULL, "Random numbers that depend on nothing but the seed.", NULL},
+    {"rng", make_rng, "(seed: integer): venule.Rng", NULL,
+     "Random numbers that depend on nothing but the seed.", NULL},
     {"smoothstep", smoothstep, "(low: number, high: number, t: number): number", NULL,
      "0 below `low`, 1 above `high`, and a smooth rise between.", NULL},
     {"closest", closest_name, "(word: string, names: string[]): string?", NULL,
@@ -97,7 +98,8 @@ static const vn_embedded *find_embedded(const char *name) {
     return NULL;
 }
 
-// A module of lua/venule/ is a chunk that is given `venule`, what the program says, and a way to set the manifest.
+// A module of lua/venule/ is a chunk that is given `venule`, what the program says, and a way to set the
+// manifest.
 static int load_embedded(lua_State *L) {
     const vn_embedded *module = find_embedded(lua_tostring(L, lua_upvalueindex(1)));
     char chunk[80];
@@ -140,9 +142,9 @@ static void merge_embedded(lua_State *L, const char *name) {
 }
 
 int luaopen_venule(lua_State *L) {
-    static const vnl_class *const classes[] = {&vnl_domain_class,     &vnl_growth_class,    &vnl_network_class,
-                                               &vnl_attractors_class, &vnl_influence_class, &vnl_rng_class,
-                                               &vnl_canvas_class};
+    static const vnl_class *const classes[] = {
+        &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
+        &vnl_influence_class, &vnl_rng_class,    &vnl_canvas_class};
     for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
         vnl_register(L, classes[i]);
     }

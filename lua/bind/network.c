@@ -16,7 +16,8 @@ static vn_network *check_network(lua_State *L) {
 static int32_t check_node(lua_State *L, int index, const vn_network *network, const char *what) {
     lua_Integer node = luaL_checkinteger(L, index);
     if (node < 1 || node > vn_network_count(network)) {
-        vnl_fail(L, "%s: node %lld is not one of the %d there are", what, (long long)node, vn_network_count(network));
+        vnl_fail(L, "%s: node %lld is not one of the %d there are", what, (long long)node,
+                 vn_network_count(network));
     }
     return (int32_t)(node - 1);
 }
@@ -179,25 +180,31 @@ static int network_extend(lua_State *L) {
 }
 
 static const vnl_function methods[] = {
-    {"root", network_root, "(x: number, y: number, z?: number): integer", NULL, "Add a root; its index.", NULL},
+    {"root", network_root, "(x: number, y: number, z?: number): integer", NULL, "Add a root; its index.",
+     NULL},
     {"add", network_add, "(parent: integer, x: number, y: number, z?: number): integer", NULL,
      "Add a child of a node; its index.", NULL},
     {"join", network_join, "(a: integer, b: integer, radius?: number)", NULL,
      "Close a loop by an edge between two nodes.", NULL},
     {"murray", network_murray, "(options: venule.murray.Options)", NULL,
-     "Give the edges radii by Murray's law; from now on they follow it, however the network grows.", &vn_murray_schema},
-    {"extend", network_extend, "(influence: venule.Influence, options: venule.extend.Options): integer, integer", NULL,
-     "Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many "
-     "nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.",
+     "Give the edges radii by Murray's law; from now on they follow it, however the network grows.",
+     &vn_murray_schema},
+    {"extend", network_extend,
+     "(influence: venule.Influence, options: venule.extend.Options): integer, integer", NULL,
+     "Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation "
+     "1). How many "
+     "nodes were added, and the first of them; when it adds none and nothing else changes, no later call "
+     "will.",
      &vn_extend_schema},
-    {"children", network_children, "(node: integer): integer[]", NULL, "The children of a node, in the order of birth.",
-     NULL},
+    {"children", network_children, "(node: integer): integer[]", NULL,
+     "The children of a node, in the order of birth.", NULL},
     {"joins", network_joins, "(): {a: integer, b: integer, radius: number}[]", NULL,
      "The extra edges that close loops.", NULL},
     {"orders", network_orders, "(kind: \"strahler\"|\"horton\"|\"hickey\")", NULL,
      "Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order.", NULL},
     {"measure", network_measure, "(): venule.Measures", NULL,
-     "Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, max_radius, extent.",
+     "Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, "
+     "max_radius, extent.",
      NULL},
     {"scale", network_scale, "(factor: number)", NULL, "Multiply all coordinates and radii.", NULL},
     {"save", network_save, "(path: string)", NULL, "Write the network as JSON.", NULL},
@@ -248,7 +255,7 @@ static void read_order(lua_State *L, void *object, int32_t i) {
 static const struct {
     const char *name;
     vnl_read_fn *read;
-} columns[] = {{"x", read_x},       {"y", read_y},         {"z", read_z},         {"parent", read_parent},
+} columns[] = {{"x", read_x},       {"y", read_y},         {"z", read_z},           {"parent", read_parent},
                {"tree", read_tree}, {"birth", read_birth}, {"radius", read_radius}, {"order", read_order}};
 
 static int network_field(lua_State *L) {
@@ -276,17 +283,18 @@ static int network_length(lua_State *L) {
     return 1;
 }
 
-static const char *const fields[] = {"x: number[] | the nodes' coordinates",
-                                     "y: number[] | the nodes' coordinates",
-                                     "z: number[] | the nodes' coordinates; 0 in 2D",
-                                     "parent: integer[] | each node's parent, 0 at a root",
-                                     "radius: number[] | of the edge to the parent; at a root, of its thickest child",
-                                     "order: integer[] | of that edge, once net:orders(…) was called",
-                                     "tree: integer[] | which root each node hangs from, counted from 1",
-                                     "birth: integer[] | the step each node was born in",
-                                     "dim: integer | 2 or 3",
-                                     "unit: string | the length unit that files carry",
-                                     NULL};
+static const char *const fields[] = {
+    "x: number[] | the nodes' coordinates",
+    "y: number[] | the nodes' coordinates",
+    "z: number[] | the nodes' coordinates; 0 in 2D",
+    "parent: integer[] | each node's parent, 0 at a root",
+    "radius: number[] | of the edge to the parent; at a root, of its thickest child",
+    "order: integer[] | of that edge, once net:orders(…) was called",
+    "tree: integer[] | which root each node hangs from, counted from 1",
+    "birth: integer[] | the step each node was born in",
+    "dim: integer | 2 or 3",
+    "unit: string | the length unit that files carry",
+    NULL};
 
 const vnl_class vnl_network_class = {
     .name = "network",
@@ -302,7 +310,8 @@ static int load_networks(lua_State *L) {
     const char *path = vnl_push_path(L, 1);
     vn_network_set set;
     vnl_try(L, vn_networks_load(&set, path));
-    // The set is handed over piece by piece; should Lua run out of memory here, its remains are lost to the process's end.
+    // The set is handed over piece by piece; should Lua run out of memory here, its remains are lost to the
+    // process's end.
     bool single = set.count == 1 && set.names[0][0] == '\0';
     if (!single) {
         lua_createtable(L, 0, set.count);

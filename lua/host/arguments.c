@@ -87,9 +87,8 @@ static bool apply(run_options *options, option_kind kind, const char *name, cons
     case OUTPUT:
         return vn_array_push(&options->outputs, value) == VN_OK;
     case SET:
-        return strchr(value, '=') != NULL && value[0] != '='
-                   ? vn_array_push(&options->sets, value) == VN_OK
-                   : complain(name, value, "give it as NAME=VALUE");
+        return strchr(value, '=') != NULL && value[0] != '=' ? vn_array_push(&options->sets, value) == VN_OK
+                                                             : complain(name, value, "give it as NAME=VALUE");
     case PARAMS:
         options->params = value;
         return true;
@@ -97,11 +96,13 @@ static bool apply(run_options *options, option_kind kind, const char *name, cons
         return add_seed(options, value);
     case THREADS:
         options->threads = read_positive(value, 4096, &number) ? (int)number : 0;
-        return options->threads > 0 || complain(name, value, "a whole number of threads from 1 to 4096 expected");
+        return options->threads > 0 ||
+               complain(name, value, "a whole number of threads from 1 to 4096 expected");
     case TIME:
         return read_positive(value, 1e9, &options->time) || complain(name, value, "seconds above 0 expected");
     case MEMORY:
-        return read_size(value, &options->memory) || complain(name, value, "a size such as 300M or 2G expected");
+        return read_size(value, &options->memory) ||
+               complain(name, value, "a size such as 300M or 2G expected");
     default:
         return true;
     }

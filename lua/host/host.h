@@ -48,7 +48,8 @@ lua_State *limits_new_state(void);
 void limits_arm(lua_State *L, const run_options *options);
 void limits_disarm(void);
 
-/// sandbox.c: the libraries that a script may have; all of them when it is trusted. `require` finds modules beside @p script.
+/// sandbox.c: the libraries that a script may have; all of them when it is trusted. `require` finds modules
+/// beside @p script.
 void sandbox_open(lua_State *L, const char *script, bool trust);
 
 /// progress.c: the functions of `host` that show how a run goes.

@@ -36,10 +36,11 @@ static vn_status print_json(const vn_network *network, const char *name) {
     if (status != VN_OK) {
         return status;
     }
-    printf("{\"name\": \"%s\", \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": %d, \"joins\": %d, "
+    printf("{\"name\": \"%s\", \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": "
+           "%d, \"joins\": %d, "
            "\"depth\": %d, \"length\": %.17g, \"min_radius\": %.17g, \"max_radius\": %.17g}\n",
-           name, vn_network_dim(network), m.nodes, m.roots, m.tips, m.bifurcations, m.joins, m.depth, m.length,
-           m.min_radius, m.max_radius);
+           name, vn_network_dim(network), m.nodes, m.roots, m.tips, m.bifurcations, m.joins, m.depth,
+           m.length, m.min_radius, m.max_radius);
     return VN_OK;
 }
 

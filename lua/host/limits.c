@@ -1,6 +1,6 @@
-// Memory and time. A hook asks the engine's clock while Lua runs, the engine asks it while C runs, and where neither
-// can (one long call of a library) a timer ends the process a little later: files appear whole or not at all, so that is
-// safe.
+// Memory and time. A hook asks the engine's clock while Lua runs, the engine asks it while C runs, and where
+// neither can (one long call of a library) a timer ends the process a little later: files appear whole or not
+// at all, so that is safe.
 
 #include "host/host.h"
 
@@ -88,8 +88,8 @@ static void start_timer(double seconds) {
 #define LIMITED_BY_SYSTEM 1
 #endif
 
-// What libraries allocate does not count in the engine; the process's own limit holds that, with room for what they need
-// to be there at all.
+// What libraries allocate does not count in the engine; the process's own limit holds that, with room for
+// what they need to be there at all.
 static void limit_process(size_t memory) {
     enum { LIBRARIES = 256 << 20 };
     struct rlimit limit;

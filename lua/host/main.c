@@ -27,7 +27,8 @@ static const char help_text[] =
     "  venule test FILE|FOLDER...    run Lua tests (luaunit): test_*.lua\n"
     "  venule --version\n"
     "\n"
-    "Exit status: 0 done, 1 script error, 2 usage, 3 infeasible, 4 input/output, 5 limit reached, 130 interrupted.\n";
+    "Exit status: 0 done, 1 script error, 2 usage, 3 infeasible, 4 input/output, 5 limit reached, 130 "
+    "interrupted.\n";
 
 static int help_command(int argc, char **argv) {
     (void)argc;
@@ -46,8 +47,8 @@ static int version_command(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
-} commands[] = {{"run", run_command},   {"info", info_command},    {"test", test_command},
-                {"help", help_command}, {"--help", help_command},  {"-h", help_command},
+} commands[] = {{"run", run_command},         {"info", info_command},        {"test", test_command},
+                {"help", help_command},       {"--help", help_command},      {"-h", help_command},
                 {"version", version_command}, {"--version", version_command}};
 
 enum { COMMANDS = sizeof commands / sizeof *commands };

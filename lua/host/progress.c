@@ -110,15 +110,17 @@ static int host_finish(lua_State *L) {
     progress_clear(options);
     lua_pushboolean(L, true);
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.finished");
-    double nodes = number_field(L, "nodes"), tips = number_field(L, "tips"), length = number_field(L, "length");
+    double nodes = number_field(L, "nodes"), tips = number_field(L, "tips"),
+           length = number_field(L, "length");
     if (options->json) {
         fputs("{\"outputs\": [", stdout);
         print_outputs(L, true);
-        printf("], \"nodes\": %.0f, \"tips\": %.0f, \"length\": %.17g, \"seconds\": %.3f}\n", nodes, tips, length,
-               now() - options->progress.started);
+        printf("], \"nodes\": %.0f, \"tips\": %.0f, \"length\": %.17g, \"seconds\": %.3f}\n", nodes, tips,
+               length, now() - options->progress.started);
     } else if (!options->quiet) {
         print_outputs(L, false);
-        printf("%.0f nodes, %.0f tips, %.6g long, %.2f s\n", nodes, tips, length, now() - options->progress.started);
+        printf("%.0f nodes, %.0f tips, %.6g long, %.2f s\n", nodes, tips, length,
+               now() - options->progress.started);
     }
     fflush(stdout);
     return 0;

@@ -1,5 +1,6 @@
-// Writes lua/library/venule.lua (editor stubs) and docs/reference.md from the tables of the bindings, the schema rows and
-// the rows of the systems written in Lua. A function without a sentence of documentation stops it.
+// Writes lua/library/venule.lua (editor stubs) and docs/reference.md from the tables of the bindings, the
+// schema rows and the rows of the systems written in Lua. A function without a sentence of documentation
+// stops it.
 
 #include "bind/bind.h"
 
@@ -19,7 +20,8 @@ typedef struct writer {
 } writer;
 
 static const char *lua_type_of(const vn_field *field) {
-    static const char *const names[] = {"number", "integer", "integer", "boolean", "string", "number[]", "string", "", "any"};
+    static const char *const names[] = {"number",   "integer", "integer", "boolean", "string",
+                                        "number[]", "string",  "",        "any"};
     return names[field->type];
 }
 
@@ -95,9 +97,10 @@ static void write_field(writer *w, const vn_schema *schema, const vn_field *fiel
         fputs(type, w->stubs);
         fputs(field->type == VN_MIXED ? field->kind : type, w->page);
     }
-    fprintf(w->stubs, " # %s%s%s%s%s%s\n", field->doc, field->unit[0] ? ", " : "", field->unit, value[0] ? " (default " : "",
-            value, value[0] ? ")" : "");
-    fprintf(w->page, " | %s | %s | %s | %s |\n", required ? "required" : value, range, field->unit, field->doc);
+    fprintf(w->stubs, " # %s%s%s%s%s%s\n", field->doc, field->unit[0] ? ", " : "", field->unit,
+            value[0] ? " (default " : "", value, value[0] ? ")" : "");
+    fprintf(w->page, " | %s | %s | %s | %s |\n", required ? "required" : value, range, field->unit,
+            field->doc);
 }
 
 static void write_options(writer *w, const vn_schema *schema) {
@@ -111,7 +114,8 @@ static void write_options(writer *w, const vn_schema *schema) {
 
 static void write_signature(writer *w, const vnl_function *f) {
     if (f->signature == NULL) {
-        fprintf(w->stubs, "---@param options venule.%s.Options\n---@return %s\n", f->schema->name, f->returns);
+        fprintf(w->stubs, "---@param options venule.%s.Options\n---@return %s\n", f->schema->name,
+                f->returns);
         return;
     }
     // "(a: integer, b?: number): number" becomes a @param a line, and what follows the parenthesis a @return.
@@ -120,11 +124,13 @@ static void write_signature(writer *w, const vnl_function *f) {
     while (*at != ')' || depth > 0) {
         const char *end = at;
         for (; (*end != ',' && *end != ')') || depth > 0; end++) {
-            depth += (*end == '(' || *end == '{' || *end == '<') - (*end == ')' || *end == '}' || *end == '>');
+            depth +=
+                (*end == '(' || *end == '{' || *end == '<') - (*end == ')' || *end == '}' || *end == '>');
         }
         const char *colon = memchr(at, ':', (size_t)(end - at));
         if (colon != NULL) {
-            fprintf(w->stubs, "---@param %.*s%.*s\n", (int)(colon - at), at, (int)(end - colon - 1), colon + 1);
+            fprintf(w->stubs, "---@param %.*s%.*s\n", (int)(colon - at), at, (int)(end - colon - 1),
+                    colon + 1);
         }
         at = *end == ',' ? end + 2 : end;
     }
@@ -199,7 +205,8 @@ static void write_class_fields(writer *w, const vnl_class *class) {
         const char *field = class->fields[i];
         const char *colon = strchr(field, ':');
         const char *bar = strstr(field, " | ");
-        fprintf(w->stubs, "---@field %.*s %.*s # %s\n", (int)(colon - field), field, (int)(bar - colon - 2), colon + 2, bar + 3);
+        fprintf(w->stubs, "---@field %.*s %.*s # %s\n", (int)(colon - field), field, (int)(bar - colon - 2),
+                colon + 2, bar + 3);
         fprintf(w->page, "%s| `%.*s` | %.*s | %s |\n", i == 0 ? "\n| field | type | |\n|---|---|---|\n" : "",
                 (int)(colon - field), field, (int)(bar - colon - 2), colon + 2, bar + 3);
     }
@@ -209,7 +216,8 @@ static void write_class(writer *w, const vnl_class *class) {
     char name[64];
     capitalised(name, sizeof name, class->name);
     fprintf(w->page, "\n## %s\n\n%s\n", name, class->doc);
-    fprintf(w->stubs, "---%s\n---@class %s%s\n", class->doc, name, class == &vnl_growth_class ? ": venule.Domain" : "");
+    fprintf(w->stubs, "---%s\n---@class %s%s\n", class->doc, name,
+            class == &vnl_growth_class ? ": venule.Domain" : "");
     for (const vnl_function *f = class->methods; f->name != NULL; f++) {
         if (operator_sign(f->name) != NULL) {
             fprintf(w->stubs, "---@operator %s(venule.Domain): venule.Domain\n", f->name + 2);
@@ -228,18 +236,23 @@ static void write_lua_part(lua_State *L, const char *field, FILE *file) {
 }
 
 static void write_all(writer *w, lua_State *L) {
-    static const vnl_class *const classes[] = {&vnl_domain_class,     &vnl_growth_class,    &vnl_network_class,
-                                               &vnl_attractors_class, &vnl_influence_class, &vnl_canvas_class,
-                                               &vnl_rng_class};
-    fputs("---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
-          "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}}\n\n"
-          "---@class venule.Bounds\n---@field min number[]\n---@field max number[]\n---@field unit? string\n\n"
-          "---@class venule.Measures\n---@field nodes integer\n---@field roots integer\n---@field tips integer\n"
-          "---@field bifurcations integer\n---@field joins integer\n---@field depth integer\n---@field length number\n"
-          "---@field min_radius number\n---@field max_radius number\n---@field extent venule.Bounds\n\n",
-          w->stubs);
-    fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options marked *required* "
-          "must be given; an option without a default may be left out. Indices count from 1, angles are degrees, y points "
+    static const vnl_class *const classes[] = {
+        &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
+        &vnl_influence_class, &vnl_canvas_class, &vnl_rng_class};
+    fputs(
+        "---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
+        "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}}\n\n"
+        "---@class venule.Bounds\n---@field min number[]\n---@field max number[]\n---@field unit? string\n\n"
+        "---@class venule.Measures\n---@field nodes integer\n---@field roots integer\n---@field tips "
+        "integer\n"
+        "---@field bifurcations integer\n---@field joins integer\n---@field depth integer\n---@field length "
+        "number\n"
+        "---@field min_radius number\n---@field max_radius number\n---@field extent venule.Bounds\n\n",
+        w->stubs);
+    fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options "
+          "marked *required* "
+          "must be given; an option without a default may be left out. Indices count from 1, angles are "
+          "degrees, y points "
           "up.\n\n```lua\nlocal venule = require \"venule\"\n```\n\n## venule\n",
           w->page);
     write_functions(w, vnl_network_functions, "venule", '.');

@@ -126,15 +126,16 @@ static vn_status read_params(lua_State *L, const char *path) {
     if (tree == NULL || !YAJL_IS_OBJECT(tree)) {
         reason[strcspn(reason, "\n")] = '\0';
         yajl_tree_free(tree);
-        return vn_fail(VN_IO, "%s: a JSON object {\"name\": value, …} expected%s%s", path, reason[0] != '\0' ? ": " : "",
-                       reason);
+        return vn_fail(VN_IO, "%s: a JSON object {\"name\": value, …} expected%s%s", path,
+                       reason[0] != '\0' ? ": " : "", reason);
     }
     vn_status status = VN_OK;
     for (size_t i = 0; i < tree->u.object.len && status == VN_OK; i++) {
         if (push_json_value(L, tree->u.object.values[i])) {
             lua_setfield(L, -2, tree->u.object.keys[i]);
         } else {
-            status = vn_fail(VN_IO, "%s: \"%s\" must be a number, a string, true or false", path, tree->u.object.keys[i]);
+            status = vn_fail(VN_IO, "%s: \"%s\" must be a number, a string, true or false", path,
+                             tree->u.object.keys[i]);
         }
     }
     yajl_tree_free(tree);

@@ -1,4 +1,5 @@
-// What a script may have. Scripts come from strangers: they compute, and what they write is what was asked for.
+// What a script may have. Scripts come from strangers: they compute, and what they write is what was asked
+// for.
 
 #include "host/host.h"
 
@@ -44,12 +45,14 @@ static int load_text(lua_State *L) {
 }
 
 static int refuse_random(lua_State *L) {
-    return luaL_error(L, "math.random() would not repeat; use venule.rng(seed): r:uniform(a, b), r:integer(a, b)");
+    return luaL_error(
+        L, "math.random() would not repeat; use venule.rng(seed): r:uniform(a, b), r:integer(a, b)");
 }
 
 static bool is_module_name(const char *name) {
     for (const char *c = name; *c != '\0'; c++) {
-        bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') || *c == '_';
+        bool plain =
+            (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') || *c == '_';
         if (!plain && !(*c == '.' && c > name && c[1] != '.' && c[1] != '\0')) {
             return false;
         }

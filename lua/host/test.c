@@ -1,5 +1,5 @@
-// `venule test`: each test file in a state of its own, by luaunit, with everything of Lua open; after each, the engine
-// must hold no memory.
+// `venule test`: each test file in a state of its own, by luaunit, with everything of Lua open; after each,
+// the engine must hold no memory.
 
 #include "bind/bind.h"
 #include "host/host.h"
@@ -16,15 +16,16 @@ static int run_file(lua_State *L) {
     const char *path = lua_touserdata(L, 1);
     sandbox_open(L, path, true);
     luaL_requiref(L, "venule", luaopen_venule, 1);
-    static const char script[] = "local path = ...\n"
-                                 "local luaunit = require 'luaunit'\n"
-                                 "local chunk = assert(loadfile(path, 't'))\n"
-                                 "chunk(path)\n"
-                                 "local runner = luaunit.LuaUnit.new()\n"
-                                 "runner:setOutputType('text')\n"
-                                 "local failures = runner:runSuite()\n"
-                                 "if runner.result.runCount == 0 then error(path .. ': holds no tests', 0) end\n"
-                                 "return failures\n";
+    static const char script[] =
+        "local path = ...\n"
+        "local luaunit = require 'luaunit'\n"
+        "local chunk = assert(loadfile(path, 't'))\n"
+        "chunk(path)\n"
+        "local runner = luaunit.LuaUnit.new()\n"
+        "runner:setOutputType('text')\n"
+        "local failures = runner:runSuite()\n"
+        "if runner.result.runCount == 0 then error(path .. ': holds no tests', 0) end\n"
+        "return failures\n";
     if (luaL_loadbufferx(L, script, sizeof script - 1, "=venule test", "t") != LUA_OK) {
         return lua_error(L);
     }
@@ -78,7 +79,8 @@ static bool add_folder(path_list *paths, const char *folder) {
     }
     for (struct dirent *entry; (entry = readdir(dir)) != NULL;) {
         size_t length = strlen(entry->d_name);
-        if (strncmp(entry->d_name, "test_", 5) == 0 && length > 9 && strcmp(entry->d_name + length - 4, ".lua") == 0) {
+        if (strncmp(entry->d_name, "test_", 5) == 0 && length > 9 &&
+            strcmp(entry->d_name + length - 4, ".lua") == 0) {
             add_path(paths, folder, entry->d_name);
         }
     }

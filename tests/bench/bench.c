@@ -1,5 +1,5 @@
-// Speed and memory of open venation, in seconds and in yardsticks of the same run. Figures, never a test: nothing fails
-// here for being slow.
+// Speed and memory of open venation, in seconds and in yardsticks of the same run. Figures, never a test:
+// nothing fails here for being slow.
 
 #include "report.h"
 #include "yardstick.h"
@@ -22,8 +22,8 @@ typedef struct colony {
 typedef struct outcome {
     double seconds;
     int32_t nodes, left;
-    double bytes_a_node;         ///< of the network alone, when it is grown
-    double peak_bytes_a_node;    ///< of everything at its peak: attractors, trees, working memory
+    double bytes_a_node;      ///< of the network alone, when it is grown
+    double peak_bytes_a_node; ///< of everything at its peak: attractors, trees, working memory
 } outcome;
 
 static double now(void) {
@@ -112,8 +112,9 @@ static outcome run(const colony *c, int times) {
 }
 
 static void report_outcome(report *r, const char *name, const outcome *o, double yard) {
-    printf("%-18s %9d nodes %6d left %9.4f s %7.3f Y %9.0f nodes/s %6.1f bytes/node (peak of all %6.1f)\n", name, o->nodes,
-           o->left, o->seconds, o->seconds / yard, o->nodes / o->seconds, o->bytes_a_node, o->peak_bytes_a_node);
+    printf("%-18s %9d nodes %6d left %9.4f s %7.3f Y %9.0f nodes/s %6.1f bytes/node (peak of all %6.1f)\n",
+           name, o->nodes, o->left, o->seconds, o->seconds / yard, o->nodes / o->seconds, o->bytes_a_node,
+           o->peak_bytes_a_node);
     report_add(r, name, "seconds", o->seconds, "s");
     report_add(r, name, "yardsticks", o->seconds / yard, "Y");
     report_add(r, name, "nodes", o->nodes, "nodes");
@@ -212,8 +213,9 @@ static bool read_options(bench_options *o, int argc, char **argv) {
         } else if (is_bench(argv[i]) && o->count < BENCHES) {
             o->names[o->count++] = argv[i];
         } else {
-            fprintf(stderr, "bench: unknown word %s (venule-bench [open] [webb] [--quick] [--json FILE] [--csv FILE] "
-                            "[--compare FILE.json])\n",
+            fprintf(stderr,
+                    "bench: unknown word %s (venule-bench [open] [webb] [--quick] [--json FILE] [--csv FILE] "
+                    "[--compare FILE.json])\n",
                     argv[i]);
             return false;
         }

@@ -42,17 +42,18 @@ typedef struct origin {
 static origin find_origin(void) {
     origin o;
     first_line(o.commit, sizeof o.commit, "git describe --always --dirty --abbrev=12 2>/dev/null");
-    first_line(o.machine, sizeof o.machine, "sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1");
+    first_line(o.machine, sizeof o.machine,
+               "sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1");
     return o;
 }
 
 static bool write_json(const report *r, const origin *o, FILE *file) {
-    fprintf(file, "{\"venule\": \"%s\", \"commit\": \"%s\", \"machine\": \"%s\", \"figures\": [\n", vn_version(), o->commit,
-            o->machine);
+    fprintf(file, "{\"venule\": \"%s\", \"commit\": \"%s\", \"machine\": \"%s\", \"figures\": [\n",
+            vn_version(), o->commit, o->machine);
     for (int i = 0; i < r->count; i++) {
         const figure *f = &r->figures[i];
-        fprintf(file, "  {\"bench\": \"%s\", \"name\": \"%s\", \"value\": %.9g, \"unit\": \"%s\"}%s\n", f->bench, f->name,
-                f->value, f->unit, i + 1 < r->count ? "," : "");
+        fprintf(file, "  {\"bench\": \"%s\", \"name\": \"%s\", \"value\": %.9g, \"unit\": \"%s\"}%s\n",
+                f->bench, f->name, f->value, f->unit, i + 1 < r->count ? "," : "");
     }
     return fputs("]}\n", file) >= 0;
 }
@@ -113,8 +114,8 @@ static void compare_one(const report *r, yajl_val old) {
         const figure *f = &r->figures[i];
         if (strcmp(f->bench, text_of(old, "bench")) == 0 && strcmp(f->name, text_of(old, "name")) == 0) {
             double before = YAJL_GET_DOUBLE(value);
-            printf("%-18s %-12s %12.6g -> %12.6g %-10s x %.3f\n", f->bench, f->name, before, f->value, f->unit,
-                   f->value / before);
+            printf("%-18s %-12s %12.6g -> %12.6g %-10s x %.3f\n", f->bench, f->name, before, f->value,
+                   f->unit, f->value / before);
         }
     }
 }
