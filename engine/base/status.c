@@ -14,7 +14,7 @@ const char *vn_version(void) {
     return VN_STRING(VN_VERSION_MAJOR) "." VN_STRING(VN_VERSION_MINOR) "." VN_STRING(VN_VERSION_PATCH);
 }
 
-vn_status vn_fail(vn_status status, const char *format, ...) {
+vn_status(vn_fail)(vn_status status, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(vn_message_text, sizeof vn_message_text, format, arguments);
@@ -44,7 +44,7 @@ int vn_exit_status(vn_status status) {
     }
 }
 
-vn_status vn_fail_memory(const char *what, size_t bytes) {
+vn_status(vn_fail_memory)(const char *what, size_t bytes) {
     return vn_fail(VN_NO_MEMORY, "out of memory: %s needs %.1f MB more (raise --memory, or grow less)", what,
                    (double)bytes / 1e6);
 }

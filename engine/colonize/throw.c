@@ -152,7 +152,9 @@ static vn_status lay_along_curve(vn_attractors *a, int32_t first, const vn_box *
     status = status == VN_OK ? vn_array_reserve(&old, count) : status;
     double *columns[3] = {a->x.data, a->y.data, a->z.data};
     for (int c = 0; status == VN_OK && c < a->dim; c++) {
-        memcpy(old.data, columns[c] + first, (size_t)count * sizeof *old.data);
+        for (int32_t k = 0; k < count; k++) {
+            old.data[k] = columns[c][first + k];
+        }
         for (int32_t k = 0; k < count; k++) {
             columns[c][first + k] = old.data[keys.data[k].value - first];
         }

@@ -11,7 +11,7 @@
     { name, doc, fields, (int)(sizeof(fields) / sizeof(fields)[0]), sizeof(defaults), &(defaults) }
 
 // cairo's images end at 32,767; 2^28 pixels are one gigabyte.
-#define LARGEST_SIDE 32767
+#define LARGEST_SIDE 32767.0
 #define MOST_PIXELS 268435456.0
 #define DEFAULT_SIDE 800.0
 
@@ -173,7 +173,7 @@ static vn_status set_size(vn_canvas *canvas, const vn_canvas_def *def) {
     if (!(width <= LARGEST_SIDE && height <= LARGEST_SIDE && width * height <= MOST_PIXELS)) {
         return vn_fail(
             VN_INVALID,
-            "a canvas of %.0f x %.0f pixels is too large: each side may have %d, and both together %.0f "
+            "a canvas of %.0f x %.0f pixels is too large: each side may have %.0f, and both together %.0f "
             "(2^28); give a smaller width or height",
             width, height, LARGEST_SIDE, MOST_PIXELS);
     }

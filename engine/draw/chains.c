@@ -191,6 +191,7 @@ static float thicker_end(const vn_piece *piece) {
 
 static bool before(const piece_sorter *sorter, const vn_piece *a, const vn_piece *b) {
     if (a->order != b->order) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): there are orders only where there are layers
         float layer_a = sorter->layers[a->order];
         float layer_b = sorter->layers[b->order];
         return layer_a != layer_b ? layer_a < layer_b : a->order < b->order;
@@ -207,6 +208,7 @@ static void merge(const piece_sorter *sorter, int64_t begin, int64_t middle, int
     int64_t right = middle;
     for (int64_t i = begin; i < end; i++) {
         bool take_right = left == middle || (right < end && before(sorter, &from[right], &from[left]));
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): as many places as pieces
         sorter->to[i] = from[take_right ? right++ : left++];
     }
 }

@@ -60,7 +60,7 @@ static inline void vn_network_position(const vn_network *network, int32_t node, 
 vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid **grid);
 
 /// Carry pending tips up, so that `tips` holds everywhere.
-void vn_network_settle(const vn_network *network);
+void vn_network_settle(const vn_network *constant);
 
 /// Node @p k of the traversal order, parents first.
 static inline int32_t vn_network_nth(const vn_network *network, int32_t k) {

@@ -34,7 +34,7 @@ void vn_point_grid_free(vn_point_grid *grid) {
 
 static void link_point(vn_point_grid *grid, const vn_points *points, int32_t point) {
     double p[3];
-    int64_t cell[3];
+    int64_t cell[3] = {0};
     vn_points_get(points, point, p);
     cells_of(grid, p, cell);
     uint32_t bucket = bucket_of(grid, cell[0], cell[1], cell[2]);
@@ -237,7 +237,7 @@ void vn_point_grid_nearest(const vn_point_grid *grid, const vn_points *points, c
         return;
     }
     walk w = {grid, points, p, ask_nearest, query};
-    int64_t centre[3];
+    int64_t centre[3] = {0};
     cells_of(grid, p, centre);
     int64_t last = last_ring(grid, centre);
     double asked = 0;

@@ -110,7 +110,9 @@ vn_status vn_segment_grid_build(vn_segment_grid *grid) {
     VN_TRY(vn_array_zero(&grid->items, grid->starts.data[cells]));
     VN_ARRAY(int32_t) fill = {0};
     VN_TRY(vn_array_reserve(&fill, cells));
-    memcpy(fill.data, grid->starts.data, (size_t)cells * sizeof *fill.data);
+    for (int32_t c = 0; c < cells; c++) {
+        fill.data[c] = grid->starts.data[c];
+    }
     for (int32_t i = 0; i < grid->segments.count; i++) {
         spread_segment(grid, i, fill.data);
     }

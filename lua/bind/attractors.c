@@ -137,14 +137,15 @@ static int attractors_length(lua_State *L) {
     return 1;
 }
 
+static const char retired_field[] = "retired: {hidden: integer, circled: integer} | how many were given up: "
+                                    "hidden, as no node sees them without leaving "
+                                    "the domain; circled, as veins grew for them and came no nearer";
 static const char *const fields[] = {"x: number[] | the attractors' coordinates",
                                      "y: number[] | the attractors' coordinates",
                                      "z: number[] | the attractors' coordinates; 0 in 2D",
                                      "dim: integer | 2 or 3",
                                      "dormant: integer | how many wait beyond a growing margin",
-                                     "retired: {hidden: integer, circled: integer} | how many were given up: "
-                                     "hidden, as no node sees them without leaving the "
-                                     "domain; circled, as veins grew for them and came no nearer",
+                                     retired_field,
                                      NULL};
 
 const vnl_class vnl_attractors_class = {

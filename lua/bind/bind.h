@@ -71,7 +71,7 @@ void vnl_keep(lua_State *L, int object, int value);
 /// Raise vn_message() as an error with the script's line, unless @p status is VN_OK.
 void vnl_try(lua_State *L, vn_status status);
 /// Raise an error of the script's own with its line: VN_INVALID.
-int vnl_fail(lua_State *L, const char *format, ...) VN_PRINTF(2, 3);
+int vnl_fail(lua_State *L, const char *format, ...) VN_PRINTF(2, 3) __attribute__((noreturn));
 /// The status of the last raised error, and whether @p message is that error's text. For the host.
 vn_status vnl_status_of(lua_State *L, const char *message);
 

@@ -2,6 +2,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const STATUS_KEY = "venule.status";
@@ -34,13 +35,13 @@ void *vnl_test(lua_State *L, int index, const vnl_class *class) {
 
 void *vnl_check(lua_State *L, int index, const vnl_class *class) {
     void **box = box_at(L, index, class);
+    void *object = box != NULL ? *box : NULL;
     if (box == NULL) {
         luaL_typeerror(L, index, class->name);
-    }
-    if (*box == NULL) {
+    } else if (object == NULL) {
         vnl_fail(L, "this %s is closed", class->name);
     }
-    return *box;
+    return object;
 }
 
 vn_domain *vnl_test_domain(lua_State *L, int index) {
@@ -94,7 +95,7 @@ int vnl_fail(lua_State *L, const char *format, ...) {
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     vnl_try(L, vn_fail(VN_INVALID, "%s", text));
-    return 0;
+    abort(); // vnl_try() has left by now
 }
 
 vn_status vnl_status_of(lua_State *L, const char *message) {

@@ -17,12 +17,13 @@ static const vnl_class *class_by_name(const char *name) {
     return NULL;
 }
 
-static void fail_type(lua_State *L, const vn_schema *schema, const vn_field *field, const char *wanted) {
+__attribute__((noreturn)) static void fail_type(lua_State *L, const vn_schema *schema, const vn_field *field,
+                                                const char *wanted) {
     const char *got = lua_isuserdata(L, -1) ? luaL_tolstring(L, -1, NULL) : luaL_typename(L, -1);
     vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, got, field->doc);
 }
 
-static void fail_unknown_field(lua_State *L, const vn_schema *schema) {
+__attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_schema *schema) {
     const char *names[64];
     int count = 0;
     for (; count < schema->count && count < 64; count++) {
@@ -182,7 +183,7 @@ double vnl_check_number(lua_State *L, int index, const char *what) {
 void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]) {
     static const char *const names[3] = {"x", "y", "z"};
     p[2] = 0;
-    for (int k = 0; k < dim; k++) {
+    for (int k = 0; k < dim && k < 3; k++) {
         p[k] = vnl_check_number(L, index + k, names[k]);
     }
 }

@@ -70,17 +70,6 @@ static bool read_positive(const char *text, double most, double *value) {
     return errno == 0 && end != text && *end == '\0' && *value > 0 && *value <= most;
 }
 
-// --seed N is --set seed=N; the text lives as long as the options.
-static bool add_seed(run_options *options, const char *value) {
-    size_t size = strlen(value) + sizeof "seed=";
-    char *set = malloc(size);
-    if (set == NULL) {
-        return complain("--seed", value, "out of memory");
-    }
-    snprintf(set, size, "seed=%s", value);
-    return vn_array_push(&options->sets, set) == VN_OK;
-}
-
 static bool apply(run_options *options, option_kind kind, const char *name, const char *value) {
     double number;
     switch (kind) {
@@ -93,7 +82,8 @@ static bool apply(run_options *options, option_kind kind, const char *name, cons
         options->params = value;
         return true;
     case SEED:
-        return add_seed(options, value);
+        options->seed = value;
+        return true;
     case THREADS:
         options->threads = read_positive(value, 4096, &number) ? (int)number : 0;
         return options->threads > 0 ||

@@ -24,6 +24,7 @@ typedef struct run_options {
     VN_ARRAY(const char *) outputs; ///< each -o
     VN_ARRAY(const char *) sets;    ///< each NAME=VALUE
     const char *params;             ///< a JSON file of parameters
+    const char *seed;               ///< of --seed; NULL without
     double time;                    ///< seconds; 0: no limit
     size_t memory;                  ///< bytes; 0: no limit
     int threads;                    ///< 0: all

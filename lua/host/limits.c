@@ -59,7 +59,7 @@ static void look_at_clock(lua_State *L, lua_Debug *at) {
 
 // The second Ctrl-C does what it does everywhere.
 static void interrupt(int signal_number) {
-    vn_interrupt();
+    vn_interrupt(); // NOLINT(bugprone-signal-handler): made for this; it sets one sig_atomic_t
     signal(signal_number, SIG_DFL);
 }
 

@@ -114,8 +114,8 @@ static void write_options(writer *w, const vn_schema *schema) {
 
 static void write_signature(writer *w, const vnl_function *f) {
     if (f->signature == NULL) {
-        fprintf(w->stubs, "---@param options venule.%s.Options\n---@return %s\n", f->schema->name,
-                f->returns);
+        const char *options = f->schema != NULL ? f->schema->name : "?";
+        fprintf(w->stubs, "---@param options venule.%s.Options\n---@return %s\n", options, f->returns);
         return;
     }
     // "(a: integer, b?: number): number" becomes a @param a line, and what follows the parenthesis a @return.

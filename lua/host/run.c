@@ -101,6 +101,10 @@ static void read_sets(lua_State *L, const run_options *options) {
         lua_pushstring(L, equals + 1);
         lua_settable(L, -3);
     }
+    if (options->seed != NULL) {
+        lua_pushstring(L, options->seed);
+        lua_setfield(L, -2, "seed");
+    }
 }
 
 static bool push_json_value(lua_State *L, yajl_val value) {

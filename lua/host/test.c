@@ -59,12 +59,14 @@ static bool test_file(const char *path) {
 
 static bool add_path(path_list *paths, const char *folder, const char *name) {
     size_t size = strlen(folder) + strlen(name) + 2;
-    char *path = malloc(size);
+    bool room = vn_array_reserve(paths, (int64_t)paths->count + 1) == VN_OK;
+    char *path = room ? malloc(size) : NULL;
     if (path == NULL) {
         return false;
     }
     snprintf(path, size, "%s%s%s", folder, folder[0] != '\0' ? "/" : "", name);
-    return vn_array_push(paths, path) == VN_OK;
+    paths->data[paths->count++] = path;
+    return true;
 }
 
 static int by_name(const void *a, const void *b) {

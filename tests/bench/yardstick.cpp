@@ -27,11 +27,11 @@ std::vector<kernel::Point_2> uniform_points(int count) {
 
 } // namespace
 
-extern "C" double vn_yardstick(int count) try {
-    std::vector<kernel::Point_2> points = uniform_points(count);
+extern "C" double vn_yardstick(int points) try {
+    std::vector<kernel::Point_2> places = uniform_points(points);
     auto begin = std::chrono::steady_clock::now();
     triangulation delaunay;
-    delaunay.insert(points.begin(), points.end());
+    delaunay.insert(places.begin(), places.end());
     std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     return delaunay.number_of_vertices() > 0 ? seconds.count() : -1;
 } catch (...) {

@@ -244,6 +244,7 @@ static void assert_same_nodes(const vn_network *network) {
     for (int32_t v = 0; v < oracle.nodes; v++) {
         double p[3];
         vn_points_get(&points, v, p);
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the same bits is what is asked for
         if (memcmp(p, oracle.node[v], sizeof p) != 0 || vn_network_parent(network)[v] != oracle.parent[v]) {
             fail_msg("node %d is (%.17g, %.17g, %.17g) and should be (%.17g, %.17g, %.17g)", v, p[0], p[1],
                      p[2], oracle.node[v][0], oracle.node[v][1], oracle.node[v][2]);
@@ -333,7 +334,8 @@ static void lattices_with_many_ties_grow_as_the_oracle_says(void **state) {
         pair_node(&both, -1, (k < 5 ? 5 : 4.5) * h, 5 * h, 0);
         pair_node(&both, -1, 0, 0, 0);
         for (int i = 0; i < 121; i++) {
-            pair_source(&both, (i % 11) * h, i / 11 * h, 0);
+            int row = i / 11;
+            pair_source(&both, (i % 11) * h, row * h, 0);
         }
         pair_run(&both, k % 2 == 0 ? 0 : 4 * h, h, h * (k % 3 == 0 ? 1 : 0.6), 60);
         pair_end(&both);
@@ -345,7 +347,8 @@ static void a_lattice_in_space_grows_as_the_oracle_says(void **state) {
     pair both = pair_begin(3, 5);
     pair_node(&both, -1, 0.2, 0.2, 0.2);
     for (int i = 0; i < 125; i++) {
-        pair_source(&both, i % 5 * 0.1, i / 5 % 5 * 0.1, i / 25 * 0.1);
+        int row = i / 5 % 5, layer = i / 25;
+        pair_source(&both, i % 5 * 0.1, row * 0.1, layer * 0.1);
     }
     pair_run(&both, 0, 0.05, 0.05, 60);
     pair_end(&both);

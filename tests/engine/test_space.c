@@ -93,7 +93,7 @@ static void query_place(vn_rng *rng, const cloud *c, int kind, double p[3]) {
         vn_points points = points_of(c);
         vn_points_get(&points, (int32_t)whole(rng, 0, c->count - 1), p);
     } else if (how == 1) {
-        for (int k = 0; k < c->dim; k++) {
+        for (int k = 0; k < c->dim && k < 3; k++) {
             p[k] += uniform(rng, -1, 1) * pow(10, (double)whole(rng, -3, 3));
         }
     }
@@ -498,7 +498,7 @@ static void the_curve_visits_quarter_after_quarter(void **state) {
     vn_rng rng = vn_rng_make(6);
     for (int n = 0; n < 4000; n++) {
         int quarter = n % 4;
-        double p[3] = {uniform(&rng, 0, 1) + quarter % 2, uniform(&rng, 0, 1) + quarter / 2, 0};
+        double p[3] = {uniform(&rng, 0, 1) + quarter % 2, uniform(&rng, 0, 1) + (quarter > 1), 0};
         uint64_t key = vn_morton(p, 2, min, 2);
         assert_true(key >> 38 == (uint64_t)quarter);
         last[quarter] = key;
