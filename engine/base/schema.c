@@ -125,7 +125,9 @@ static int edit_distance(const char *a, const char *b) {
 
 const char *vn_closest_name(const char *word, const char *const *names, int count) {
     const char *best = NULL;
-    int least = (int)strlen(word) / 3 + 2; // a third of the letters may be wrong, and one more
+    int length = (int)strlen(word);
+    int least =
+        length / 3 + 2 < length ? length / 3 + 2 : length; // a third may be wrong and one more; never all
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, names[i]);
         if (distance < least) {

@@ -12,6 +12,7 @@
 
 // cairo's images end at 32,767; 2^28 pixels are one gigabyte.
 #define LARGEST_SIDE 32767.0
+#define LARGEST_MARGIN 16383.0
 #define MOST_PIXELS 268435456.0
 #define DEFAULT_SIDE 800.0
 
@@ -25,7 +26,7 @@ static const vn_field canvas_fields[] = {
     ROW(view, VN_MIXED, 0, 0, 0, "length", "{min = {x, y}, max = {x, y}}, as domain:bounds() gives it",
         "what is fitted, centred, into the canvas; without it, 1 pixel is 1 unit and (0, 0) the lower left "
         "corner"),
-    ROW(margin, VN_F64, 0, 0, LARGEST_SIDE / 2, "pixels", NULL, "kept free around the view"),
+    ROW(margin, VN_F64, 0, 0, LARGEST_MARGIN, "pixels", NULL, "kept free around the view"),
     ROW(background, VN_TEXT, 0, 0, 0, "", NULL, "a colour, or \"none\""),
     ROW(unit, VN_TEXT, 0, 0, 0, "", NULL,
         "length unit of the view: \"mm\", \"cm\", \"m\", \"um\", \"in\" or \"pt\"; pages (SVG, PDF) are then "

@@ -52,6 +52,9 @@ static void lowest_point(const vn_rings *rings, double origin[3]) {
 
 static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
     if (def->has_origin) {
+        if (!vn_finite(def->origin)) {
+            return vn_fail(VN_INVALID, "marginal.origin must be finite");
+        }
         memcpy(growth->origin, def->origin, sizeof growth->origin);
         return VN_OK;
     }
