@@ -66,6 +66,8 @@ struct vn_attractors {
     vn_domain *sight;          ///< what hides nodes from attractors
     VN_ARRAY(int32_t) waiting; ///< those that no node sees yet
     int32_t next_look;         ///< the network's step at which they look again
+    uint64_t roots_serial;     ///< the network whose roots were found inside the domain,
+    int32_t roots_inside;      ///< and how many those were
     vn_domain *margin;         ///< what the dormant ones wait for
     double margin_clearance;
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last

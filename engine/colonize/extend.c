@@ -254,14 +254,9 @@ static void lose_patience(const extension *e) {
     }
 }
 
-// A seed beyond the border would have every edge refused, and its attractors given up one by one.
-static vn_status check_seed(const extension *e) {
-    const vn_domain *domain = e->def->domain;
-    if (domain == NULL || e->network->parent.data[e->node] >= 0) {
-        return VN_OK;
-    }
+static vn_status check_root(const vn_network *network, int32_t node, const vn_domain *domain) {
     double p[3];
-    vn_network_position(e->network, e->node, p);
+    vn_network_position(network, node, p);
     double outside = -vn_domain_distance(domain, p);
     vn_box bounds = vn_domain_bounds(domain);
     if (outside > 1e-6 * sqrt(vn_distance2(bounds.min, bounds.max))) {
@@ -274,9 +269,26 @@ static vn_status check_seed(const extension *e) {
     return VN_OK;
 }
 
+// A seed beyond the border would have every edge refused, and its attractors given up one by one. Roots are
+// looked at once.
+static vn_status check_roots(const extension *e) {
+    vn_attractors *a = e->a;
+    const vn_network *network = e->network;
+    if (e->def->domain == NULL || (a->roots_serial == network->serial && a->roots_inside == network->roots)) {
+        return VN_OK;
+    }
+    for (int32_t node = 0; node < network->x.count; node++) {
+        if (network->parent.data[node] < 0) {
+            VN_TRY(check_root(network, node, e->def->domain));
+        }
+    }
+    a->roots_serial = network->serial;
+    a->roots_inside = network->roots;
+    return VN_OK;
+}
+
 static vn_status grow_node(const extension *e) {
     double n[3], p[3];
-    VN_TRY(check_seed(e));
     bool has_mean = mean_direction(e, n);
     step_from(e, e->node, n, p);
     bool free = has_mean && !has_child_at(e, e->node, p);
@@ -340,6 +352,7 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     *first = network->x.count;
     VN_TRY(check_extend(network, influence, def));
     extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
+    VN_TRY(check_roots(&e));
     network->step++;
     VN_TRY(group_by_node(influence));
     vn_status status = grow_nodes(&e);

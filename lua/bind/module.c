@@ -31,6 +31,11 @@ static int smoothstep(lua_State *L) {
     return 1;
 }
 
+static int stalled(lua_State *L) {
+    lua_getfield(L, LUA_REGISTRYINDEX, "venule.stalled");
+    return 1;
+}
+
 enum { MOST_NAMES = 256 };
 
 static int closest_name(lua_State *L) {
@@ -50,6 +55,10 @@ const vnl_function vnl_module_functions[] = {
      "Random numbers that depend on nothing but the seed.", NULL},
     {"smoothstep", smoothstep, "(low: number, high: number, t: number): number", NULL,
      "0 below `low`, 1 above `high`, and a smooth rise between.", NULL},
+    {"stalled", stalled, "(): string?", NULL,
+     "Why the last `extend` added nothing although attractors are left, or nil. `venule.result` says it on "
+     "stderr.",
+     NULL},
     {"closest", closest_name, "(word: string, names: string[]): string?", NULL,
      "Which of the names a mistyped word most likely means, or nil.", NULL},
     {0},
@@ -141,6 +150,32 @@ static void merge_embedded(lua_State *L, const char *name) {
     lua_pop(L, 1);
 }
 
+// `venule.fram` is an error with a suggestion, not nil.
+static int refuse_name(lua_State *L) {
+    const char *names[MOST_NAMES];
+    const char *key = luaL_tolstring(L, 2, NULL);
+    int count = 0;
+    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) == LUA_TSTRING && count < MOST_NAMES) {
+            names[count++] = lua_tostring(L, -2);
+        }
+    }
+    const char *closest = vn_closest_name(key, names, count);
+    const char *table = lua_tostring(L, lua_upvalueindex(1));
+    if (closest != NULL) {
+        return vnl_fail(L, "%s has no \"%s\", did you mean \"%s\"?", table, key, closest);
+    }
+    return vnl_fail(L, "%s has no \"%s\"", table, key);
+}
+
+static void make_strict(lua_State *L, const char *name) {
+    lua_createtable(L, 0, 1);
+    lua_pushstring(L, name);
+    lua_pushcclosure(L, refuse_name, 1);
+    lua_setfield(L, -2, "__index");
+    lua_setmetatable(L, -2);
+}
+
 int luaopen_venule(lua_State *L) {
     static const vnl_class *const classes[] = {
         &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
@@ -153,8 +188,10 @@ int luaopen_venule(lua_State *L) {
     add_functions(L, vnl_attractors_functions);
     add_functions(L, vnl_canvas_functions);
     vnl_push_functions(L, vnl_domain_functions);
+    make_strict(L, "venule.domain");
     lua_setfield(L, -2, "domain");
     vnl_push_functions(L, vnl_growth_functions);
+    make_strict(L, "venule.growth");
     lua_setfield(L, -2, "growth");
     lua_pushstring(L, vn_version());
     lua_setfield(L, -2, "version");
@@ -163,5 +200,6 @@ int luaopen_venule(lua_State *L) {
     preload_embedded(L);
     merge_embedded(L, "venule.scenario");
     merge_embedded(L, "venule.venation");
+    make_strict(L, "venule");
     return 1;
 }

@@ -167,6 +167,27 @@ static int network_save(lua_State *L) {
     return 0;
 }
 
+// A run that ends with attractors left says why (venule.stalled()).
+static void remember_stall(lua_State *L, const vn_influence *influence, int32_t added) {
+    int32_t left = vn_attractors_count(influence->attractors);
+    if (added > 0 || left == 0) {
+        lua_pushnil(L);
+    } else if (vn_influence_count(influence) == 0) {
+        lua_pushfstring(
+            L,
+            "stalled with %d attractors left: no node is within their reach (raise `within`, add attractors "
+            "in between, or place a root nearer)",
+            left);
+    } else {
+        lua_pushfstring(L,
+                        "stalled with %d attractors left: no node can grow nearer to them (is the segment "
+                        "length too long "
+                        "for the kill distance?)",
+                        left);
+    }
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.stalled");
+}
+
 static int network_extend(lua_State *L) {
     vn_network *network = check_network(L);
     vn_influence *influence = vnl_check(L, 2, &vnl_influence_class);
@@ -174,6 +195,7 @@ static int network_extend(lua_State *L) {
     int32_t added, first;
     vnl_read_options(L, 3, &vn_extend_schema, &def);
     vnl_try(L, vn_extend(network, influence, &def, &added, &first));
+    remember_stall(L, influence, added);
     lua_pushinteger(L, added);
     lua_pushinteger(L, first + 1);
     return 2;

@@ -85,7 +85,7 @@ static bool apply(run_options *options, option_kind kind, const char *name, cons
         options->seed = value;
         return true;
     case THREADS:
-        options->threads = read_positive(value, 4096, &number) ? (int)number : 0;
+        options->threads = read_positive(value, 4096, &number) && number == (int)number ? (int)number : 0;
         return options->threads > 0 ||
                complain(name, value, "a whole number of threads from 1 to 4096 expected");
     case TIME:

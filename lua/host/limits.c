@@ -52,8 +52,8 @@ static void look_at_clock(lua_State *L, lua_Debug *at) {
         lua_setfield(L, LUA_REGISTRYINDEX, "venule.message");
         lua_pushvalue(L, -1);
         lua_setfield(L, LUA_REGISTRYINDEX, "venule.stopped");
-        lua_sethook(L, look_at_clock, LUA_MASKCOUNT, 1);
     }
+    lua_sethook(L, look_at_clock, LUA_MASKCOUNT, 1); // of each coroutine, as hooks are its own
     lua_error(L);
 }
 

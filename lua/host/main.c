@@ -79,10 +79,18 @@ int main(int argc, char **argv) {
         fputs(help_text, stderr);
         return VN_EXIT_USAGE;
     }
-    for (int i = 0; i < COMMANDS; i++) {
+    int status = -1;
+    for (int i = 0; status < 0 && i < COMMANDS; i++) {
         if (strcmp(argv[1], commands[i].name) == 0) {
-            return commands[i].call(argc - 2, argv + 2);
+            status = commands[i].call(argc - 2, argv + 2);
         }
     }
-    return looks_like_script(argv[1]) ? run_command(argc - 1, argv + 1) : unknown_command(argv[1]);
+    if (status < 0) {
+        status = looks_like_script(argv[1]) ? run_command(argc - 1, argv + 1) : unknown_command(argv[1]);
+    }
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "venule: what it had to say could not be written to stdout (is the disk full?)\n");
+        status = status == 0 ? vn_exit_status(VN_IO) : status;
+    }
+    return status;
 }

@@ -193,6 +193,9 @@ static int run_protected(lua_State *L) {
     sandbox_open(L, options->script, options->trust);
     luaL_requiref(L, "venule", luaopen_venule, 0);
     lua_pop(L, 1);
+    if (size > 0 && text[0] == LUA_SIGNATURE[0]) {
+        vnl_try(L, vn_fail(VN_INVALID, "%s: is bytecode; a script is text", options->script));
+    }
     const char *chunk = lua_pushfstring(L, "@%s", options->script);
     if (luaL_loadbufferx(L, text, size, chunk, "t") != LUA_OK) {
         return lua_error(L);

@@ -77,6 +77,10 @@ function venule.rng(seed) end
 ---@return number
 function venule.smoothstep(low, high, t) end
 
+---Why the last `extend` added nothing although attractors are left, or nil. `venule.result` says it on stderr.
+---@return string?
+function venule.stalled() end
+
 ---Which of the names a mistyped word most likely means, or nil.
 ---@param word string
 ---@param names string[]
@@ -95,6 +99,9 @@ function venule.frame(fraction) end
 ---Say something about the run that the user should know, on stderr.
 ---@param text string
 function venule.note(text) end
+
+---Say on stderr, once, why the last `extend` added nothing although attractors are left; `result` and `run` do it too.
+function venule.tell_stall() end
 
 ---@class (exact) venule.result.Options
 ---@field network? any # the network that grew

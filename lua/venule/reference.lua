@@ -9,6 +9,8 @@ local functions = {
     "Call once a step: shows progress on a terminal, and meets Ctrl-C and the limits."},
   {name = "note", owner = "venule", arguments = "text", types = {text = "string"}, doc =
     "Say something about the run that the user should know, on stderr."},
+  {name = "tell_stall", owner = "venule", arguments = "", types = {}, doc =
+    "Say on stderr, once, why the last `extend` added nothing although attractors are left; `result` and `run` do it too."},
   {name = "result", owner = "venule", arguments = "options", types = {options = "venule.result.Options"}, rows = "result", doc =
     "Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); "
     .. "without one, a file called after the script."},

@@ -33,9 +33,11 @@ local function read_row(row)
     if key ~= 1 and key ~= 2 then named[key] = value end
   end
   local read = options.read("param." .. row[1], row_fields, named, 3)
-  read[1], read[2], read.doc = row[1], row[2], read.help
+  if read.choices then read.help = ("%s (%s)"):format(read.help or "one of", table.concat(read.choices, ", ")) end
+  read[1], read[2], read.doc = row[1], row[2], row.help
   local complaint = options.complaint("param." .. row[1], read, row[2])
   if complaint then error(complaint .. " (its own default)", 3) end
+  if read.choices then read.help = ("%s (one of %s)"):format(row.help or "", table.concat(read.choices, ", ")) end
   return read
 end
 
@@ -106,6 +108,15 @@ end
 --- Say something about the run that the user should know, on stderr.
 function scenario.note(text)
   if host.note then host.note(text) elseif io then io.stderr:write("note: ", text, "\n") end
+end
+
+local told
+
+--- Say, once, why the last `extend` added nothing although attractors are left.
+function scenario.tell_stall()
+  local why = venule.stalled()
+  if why and why ~= told then venule.note(why) end
+  told = why
 end
 
 local function as_json(value)
@@ -188,11 +199,20 @@ local function default_outputs(r)
   return {stem .. (r.picture and ".png" or ".json")}
 end
 
-local function save_networks(r, path)
-  if not r.network and not r.networks then
-    fail_usage(("-o %s: the script gives no network to save"):format(path))
+local function extension_of(path)
+  return (path:match("%.(%w+)$") or ""):lower()
+end
+
+-- Before any is written: a run that must fail leaves no file behind.
+local function check_outputs(r, outputs)
+  for _, path in ipairs(outputs) do
+    local extension = extension_of(path)
+    if not pictures[extension] and extension ~= "json" then
+      fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
+    elseif extension == "json" and not r.network and not r.networks then
+      fail_usage(("-o %s: the script gives no network to save"):format(path))
+    end
   end
-  venule.save(path, r.network or r.networks)
 end
 
 local function summary(r)
@@ -212,17 +232,16 @@ function scenario.result(given)
     error("result.picture: a canvas or a function expected, got " .. kind, 2)
   end
   if host.help then host.show_help({}) end
+  scenario.tell_stall()
   local outputs = #host.outputs > 0 and host.outputs or default_outputs(r)
+  check_outputs(r, outputs)
   local canvas
   for _, path in ipairs(outputs) do
-    local extension = (path:match("%.(%w+)$") or ""):lower()
-    if pictures[extension] then
+    if pictures[extension_of(path)] then
       canvas = canvas or draw(r)
       canvas:save(path)
-    elseif extension == "json" then
-      save_networks(r, path)
     else
-      fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
+      venule.save(path, r.network or r.networks)
     end
   end
   if host.finish then host.finish(outputs, summary(r)) end

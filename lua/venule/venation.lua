@@ -88,14 +88,10 @@ local function count(n, what)
   return ("%d %s%s"):format(n, what, n == 1 and "" or "s")
 end
 
---- Say why sources were left, if any were.
+--- Say why sources were left or given up, if any were.
 function Venation:report()
-  local left, retired = #self.attractors, self.attractors.retired
-  if left > 0 and self.options.stop == "reached" then
-    venule.note(("stalled with %s left that draw no vein: %s"):format(count(left, "source"),
-      self.options.attraction_distance and
-      ("none has a node within attraction_distance = %g"):format(self.options.attraction_distance) or "no node can grow for them"))
-  end
+  venule.tell_stall()
+  local retired = self.attractors.retired
   if retired.hidden > 0 then
     venule.note(count(retired.hidden, "source") .. " given up: no vein sees them without leaving the blade")
   end

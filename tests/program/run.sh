@@ -13,7 +13,7 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM
 to=$work/to
-mkdir "$work/in" "$to"
+mkdir "$work/in" "$work/folder.svg" "$to"
 cd "$work/in" || exit 1
 pty=$(command -v script || true) # makes a terminal; before a function below takes its name
 checks=0
@@ -266,9 +266,9 @@ expect "-o without an extension" 2 "unknown extension" "$program" run leaf.lua -
 
 # ---------------------------------------------------------------- a script's mistakes, with its line
 
-fails() { # NAME STATUS LINE TEXT: the script of that name
-  if [ -n "$3" ]; then where="$1.lua:$3: "; else where=""; fi
-  expect "$1" "$2" "$where$4" "$program" run "$1.lua" -o "$to/a.svg" -o "$to/a.json"
+fails() { # NAME STATUS LINE TEXT: the script of that name; with a line, the message begins with it
+  expect "$1" "$2" "$4" "$program" run "$1.lua" -o "$to/a.svg" -o "$to/a.json"
+  if [ -n "$3" ] && ! grep -qF -e "venule: $1.lua:$3: " "$work/err"; then bad "$1: its line" "$(head -c 200 "$work/err")"; fi
 }
 
 one() { # NAME STATUS TEXT: line 2 of stdin's two lines is wrong
@@ -310,7 +310,7 @@ one empty_outline 1 "polygon: the outline is empty" <<'EOF'
 local venule = require "venule"
 venule.domain.polygon {}
 EOF
-one no_area 3 "polygon: the outline is empty, it has no area" <<'EOF'
+one no_area 1 "has no area" <<'EOF'
 local venule = require "venule"
 venule.domain.polygon {{0, 0}, {1, 1}, {2, 2}}
 EOF
@@ -356,12 +356,12 @@ expect "-o .json without a network" 2 "gives no network" "$program" run no_netwo
 expect "-o .json without a network, after a picture" 2 "gives no network" "$program" run no_network.lua -o "$to/a.svg" -o "$to/a.json"
 one in_picture 1 "unknown field" <<'EOF'
 local venule = require "venule"
-venule.result {width = 100, picture = function(c) c:fill(venule.domain.disk {}, {colour = "red"}) end}
+venule.result {network = venule.network {}, width = 100, picture = function(c) c:fill(venule.domain.disk {}, {colour = "red"}) end}
 EOF
 expect "a missing folder" 4 "$to/none/a.svg: cannot be written" "$program" run leaf.lua -o "$to/none/a.svg"
 expect "a missing folder, json" 4 "$to/none/a.json: cannot be written" "$program" run leaf.lua -o "$to/none/a.json"
 expect "a folder that takes no files" 4 "/proc/a.svg: cannot be written" "$program" run leaf.lua -o /proc/a.svg
-expect "a folder in place of a file" 4 "is a folder" "$program" run leaf.lua -o "$to/../to.svg/"
+expect "a folder in place of a file" 4 "is a folder" "$program" run leaf.lua -o "$work/folder.svg"
 mkdir "$work/readonly"
 chmod 555 "$work/readonly"
 if [ "$(id -u)" -ne 0 ]; then
@@ -617,6 +617,7 @@ else
     assert(#v.load '$to/stock.json' == 2)
     print(v.version)"
   says "its version" "0."
+  rm -f "$to/stock.json"
   expect "stock Lua: an error with its line" 1 "(command line):2: disk: unknown field" lua5.4 -e "$cpath
     local ok, e = pcall(function() require 'venule'.domain.disk {raduis = 1} end) io.stderr:write(e, '\n') os.exit(1)"
   rm -rf "$to"; mkdir "$to"
