@@ -32,9 +32,8 @@ vn_status vn_text_number(vn_text *text, double value) {
     return vn_text_append(text, number, (size_t)length);
 }
 
-// The length of the UTF-8 sequence at @p s, 0 where it is malformed (overlong, a surrogate, cut off, too
-// large).
-static int utf8_length(const unsigned char *s) {
+int vn_utf8_length(const char *text) {
+    const unsigned char *s = (const unsigned char *)text;
     if (s[0] < 0x80) {
         return 1;
     }
@@ -56,7 +55,7 @@ vn_status vn_text_json(vn_text *text, const char *value) {
     VN_TRY(vn_text_append(text, "\"", 1));
     for (const char *at = value; *at != '\0';) {
         unsigned char byte = (unsigned char)*at;
-        int length = utf8_length((const unsigned char *)at);
+        int length = vn_utf8_length(at);
         if (byte == '"' || byte == '\\') {
             VN_TRY(vn_text_print(text, "\\%c", byte));
         } else if (byte < 0x20 || byte == 0x7F) {

@@ -33,6 +33,10 @@ vn_status vn_text_append(vn_text *text, const char *bytes, size_t count);
 vn_status vn_text_print(vn_text *text, const char *format, ...) VN_PRINTF(2, 3);
 vn_status vn_text_number(vn_text *text, double value);
 
+/// The length of the UTF-8 sequence at @p text, 1 to 4; 0 where it is malformed (overlong, a surrogate, cut
+/// off, too large).
+int vn_utf8_length(const char *text);
+
 /// Append @p value as a JSON string, quotes included; bytes that are not UTF-8 become U+FFFD.
 vn_status vn_text_json(vn_text *text, const char *value);
 

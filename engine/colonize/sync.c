@@ -105,25 +105,15 @@ static vn_status renew_tree(vn_attractors *a) {
 
 // Along the curve that the tree is built on: neighbours then ask the same packs while these are in the cache.
 static vn_status sort_nodes(vn_attractors *a, const vn_network *network, int32_t begin) {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    vn_keyed_array *keys = &a->nodes;
-    VN_TRY(vn_array_reserve(keys, network->x.count - begin));
-    keys->count = network->x.count - begin;
-    for (int32_t i = begin; i < network->x.count; i++) {
-        double p[3];
-        vn_network_position(network, i, p);
-        for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], p[k]);
-            high[k] = fmax(high[k], p[k]);
-        }
+    double low[3], high[3];
+    vn_points points = vn_network_points(network);
+    VN_TRY(vn_array_reserve(&a->nodes, network->x.count - begin));
+    a->nodes.count = network->x.count - begin;
+    for (int32_t i = 0; i < a->nodes.count; i++) {
+        a->nodes.data[i].value = begin + i;
     }
-    double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-    for (int32_t i = 0; i < keys->count; i++) {
-        double p[3];
-        vn_network_position(network, begin + i, p);
-        keys->data[i] = (vn_keyed){vn_morton(p, a->dim, low, size) >> 20, begin + i};
-    }
-    return vn_sort_keyed(keys, &a->scratch);
+    double size = vn_points_extent(&points, begin, network->x.count, low, high);
+    return vn_points_sort(&points, a->dim, low, size, &a->nodes, &a->scratch);
 }
 
 static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {

@@ -142,13 +142,12 @@ static vn_status lay_along_curve(vn_attractors *a, int32_t first, const vn_box *
         size = fmax(size, bounds->max[k] - bounds->min[k]);
     }
     vn_status status = vn_array_reserve(&keys, count);
-    for (int32_t k = 0; status == VN_OK && k < count; k++) {
-        double p[3];
-        vn_points points = vn_attractors_points(a);
-        vn_points_get(&points, first + k, p);
-        keys.data[keys.count++] = (vn_keyed){vn_morton(p, a->dim, bounds->min, size), first + k};
+    keys.count = status == VN_OK ? count : 0;
+    for (int32_t k = 0; k < keys.count; k++) {
+        keys.data[k].value = first + k;
     }
-    status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
+    vn_points points = vn_attractors_points(a);
+    status = status == VN_OK ? vn_points_sort(&points, a->dim, bounds->min, size, &keys, &scratch) : status;
     status = status == VN_OK ? vn_array_reserve(&old, count) : status;
     double *columns[3] = {a->x.data, a->y.data, a->z.data};
     for (int c = 0; status == VN_OK && c < a->dim; c++) {

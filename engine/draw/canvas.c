@@ -267,31 +267,11 @@ static bool replaced_in_xml(const unsigned char *s, int length) {
     return length == 3 && s[0] == 0xEF && s[1] == 0xBF && s[2] >= 0xBE; // U+FFFE and U+FFFF
 }
 
-// The length of the UTF-8 sequence at @p s, 0 where it is malformed (overlong, a surrogate, cut off, too
-// large).
-static int utf8_length(const unsigned char *s) {
-    if (s[0] < 0x80) {
-        return 1;
-    }
-    if (s[0] < 0xC2 || s[0] > 0xF4) {
-        return 0;
-    }
-    int length = s[0] >= 0xF0 ? 4 : (s[0] >= 0xE0 ? 3 : 2);
-    for (int i = 1; i < length; i++) {
-        if ((s[i] & 0xC0) != 0x80) {
-            return 0;
-        }
-    }
-    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
-    bool outside = (s[0] == 0xED && s[1] > 0x9F) || (s[0] == 0xF4 && s[1] > 0x8F);
-    return overlong || outside ? 0 : length;
-}
-
 vn_status vn_clean_text(vn_text *out, const char *text) {
     VN_TRY(vn_text_append(out, "", 0));
     while (*text != '\0') {
         const unsigned char *at = (const unsigned char *)text;
-        int length = utf8_length(at);
+        int length = vn_utf8_length(text);
         if (length == 0 || replaced_in_xml(at, length)) {
             VN_TRY(vn_text_append(out, "\xEF\xBF\xBD", 3));
         } else if (at[0] < 0x20 || at[0] == 0x7F) {

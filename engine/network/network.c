@@ -350,16 +350,9 @@ vn_status vn_network_scale(vn_network *network, double factor) {
 }
 
 static double typical_spacing(const vn_network *network) {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int32_t i = 0; i < network->x.count; i++) {
-        double p[3];
-        vn_network_position(network, i, p);
-        for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], p[k]);
-            high[k] = fmax(high[k], p[k]);
-        }
-    }
-    double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+    double low[3], high[3];
+    vn_points points = vn_network_points(network);
+    double size = vn_points_extent(&points, 0, network->x.count, low, high);
     double cells = network->dim == 3 ? cbrt((double)network->x.count) : sqrt((double)network->x.count);
     return size > 0 ? 2 * size / cells : 1;
 }

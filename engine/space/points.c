@@ -29,3 +29,45 @@ uint64_t vn_morton(const double p[3], int dim, const double min[3], double size)
     }
     return key;
 }
+
+double vn_points_extent(const vn_points *points, int32_t begin, int32_t end, double low[3], double high[3]) {
+    double size = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+    }
+    for (int32_t i = begin; i < end; i++) {
+        double p[3];
+        vn_points_get(points, i, p);
+        for (int k = 0; k < 3; k++) {
+            low[k] = p[k] < low[k] ? p[k] : low[k];
+            high[k] = p[k] > high[k] ? p[k] : high[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        size = fmax(size, high[k] - low[k]);
+    }
+    return size;
+}
+
+// Keys as fine as the points are many: about sixteen cells for each, so that a small set is sorted in few
+// passes.
+static int spare_bits(int dim, int32_t count) {
+    int width = dim == 3 ? 14 : 20;
+    int wanted = 2;
+    while (wanted < width && (int64_t)1 << (wanted * dim) < 16 * (int64_t)count) {
+        wanted++;
+    }
+    return (width - wanted) * dim;
+}
+
+vn_status vn_points_sort(const vn_points *points, int dim, const double low[3], double size,
+                         vn_keyed_array *items, vn_keyed_array *scratch) {
+    int spare = spare_bits(dim, items->count);
+    for (int32_t i = 0; i < items->count; i++) {
+        double p[3];
+        vn_points_get(points, items->data[i].value, p);
+        items->data[i].key = vn_morton(p, dim, low, size) >> spare;
+    }
+    return vn_sort_keyed(items, scratch);
+}

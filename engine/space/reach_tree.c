@@ -66,27 +66,16 @@ static void set_box(vn_reach_pack *pack, int i, const reach_box *box) {
 
 static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const double *reach2,
                             int32_t count) {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double low[3], high[3];
     vn_keyed_array keys = {0}, scratch = {0};
     vn_status status = vn_array_reserve(&keys, count);
     for (int32_t i = 0; status == VN_OK && i < count; i++) {
         if (reach2[i] >= 0) {
-            double p[3];
-            vn_points_get(points, i, p);
-            for (int k = 0; k < 3; k++) {
-                low[k] = fmin(low[k], p[k]);
-                high[k] = fmax(high[k], p[k]);
-            }
             keys.data[keys.count++].value = i;
         }
     }
-    double size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-    for (int32_t i = 0; i < keys.count; i++) {
-        double p[3];
-        vn_points_get(points, keys.data[i].value, p);
-        keys.data[i].key = vn_morton(p, tree->dim, low, size);
-    }
-    status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
+    double size = vn_points_extent(points, 0, count, low, high);
+    status = status == VN_OK ? vn_points_sort(points, tree->dim, low, size, &keys, &scratch) : status;
     status = status == VN_OK ? vn_array_reserve(&tree->items, keys.count) : status;
     tree->items.count = status == VN_OK ? keys.count : 0;
     for (int32_t i = 0; i < tree->items.count; i++) {

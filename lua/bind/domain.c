@@ -186,35 +186,35 @@ const vnl_function vnl_domain_functions[] = {
     {0},
 };
 
-static int domain_contains(lua_State *L) {
+// The domain and the point that `d:contains(x, y[, z])` and its like are given.
+static vn_domain *check_place(lua_State *L, double p[3]) {
     vn_domain *domain = vnl_check_domain(L, 1);
-    double p[3];
     vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
-    lua_pushboolean(L, vn_domain_contains(domain, p));
+    return domain;
+}
+
+static int domain_contains(lua_State *L) {
+    double p[3];
+    lua_pushboolean(L, vn_domain_contains(check_place(L, p), p));
     return 1;
 }
 
 static int domain_distance(lua_State *L) {
-    vn_domain *domain = vnl_check_domain(L, 1);
     double p[3];
-    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
-    lua_pushnumber(L, vn_domain_distance(domain, p));
+    lua_pushnumber(L, vn_domain_distance(check_place(L, p), p));
     return 1;
 }
 
 static int domain_closest(lua_State *L) {
-    vn_domain *domain = vnl_check_domain(L, 1);
     double p[3], q[3];
-    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
+    vn_domain *domain = check_place(L, p);
     vn_domain_closest(domain, p, q);
     return vnl_push_coordinates(L, vn_domain_dim(domain), q);
 }
 
 static int domain_value(lua_State *L) {
-    vn_domain *domain = vnl_check_domain(L, 1);
     double p[3];
-    vnl_check_coordinates(L, 2, vn_domain_dim(domain), p);
-    lua_pushnumber(L, vn_domain_value(domain, p));
+    lua_pushnumber(L, vn_domain_value(check_place(L, p), p));
     return 1;
 }
 
