@@ -20,9 +20,9 @@
 static const vn_canvas_def canvas_defaults = {.margin = 10, .background = "none", .unit = ""};
 static const vn_field canvas_fields[] = {
     ROW(width, VN_F64, VN_OPTIONAL, 1, LARGEST_SIDE, "pixels", NULL,
-        "width of the picture; 0: from the height and the view's proportions, or 800"),
+        "width of the picture; left out: from the height and the view's proportions, or 800"),
     ROW(height, VN_F64, VN_OPTIONAL, 1, LARGEST_SIDE, "pixels", NULL,
-        "height of the picture; 0: from the width and the view's proportions, or 800"),
+        "height of the picture; left out: from the width and the view's proportions, or 800"),
     ROW(view, VN_MIXED, 0, 0, 0, "length", "{min = {x, y}, max = {x, y}}, as domain:bounds() gives it",
         "what is fitted, centred, into the canvas; without it, 1 pixel is 1 unit and (0, 0) the lower left "
         "corner"),

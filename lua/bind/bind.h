@@ -52,6 +52,8 @@ extern const vnl_function vnl_domain_methods[];
 
 /// Register a class; its metatable is left in the registry.
 void vnl_register(lua_State *L, const vnl_class *class);
+/// Register what vnl_push_view() pushes.
+void vnl_register_view(lua_State *L);
 /// Push a table of functions.
 void vnl_push_functions(lua_State *L, const vnl_function *functions);
 

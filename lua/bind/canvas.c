@@ -26,7 +26,7 @@ static void read_view(lua_State *L, vn_canvas_def *def) {
         lua_getfield(L, -2, "max");
         vnl_read_point(L, -1, "canvas.view.max", def->view.max);
         lua_getfield(L, -3, "unit");
-        if (lua_isstring(L, -1) && !vnl_has(L, 1, "unit")) {
+        if (lua_type(L, -1) == LUA_TSTRING && !vnl_has(L, 1, "unit")) {
             def->unit = lua_tostring(L, -1); // held by the view's own table
         }
         lua_pop(L, 3);

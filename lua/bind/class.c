@@ -280,13 +280,16 @@ void vnl_push_view(lua_State *L, int object, const vnl_class *class, vnl_read_fn
     view *v = lua_newuserdatauv(L, sizeof *v, 1);
     *v = (view){class, read, count};
     vnl_keep(L, -1, object);
-    if (luaL_newmetatable(L, "venule.view")) {
-        lua_pushcfunction(L, view_index);
-        lua_setfield(L, -2, "__index");
-        lua_pushcfunction(L, view_length);
-        lua_setfield(L, -2, "__len");
-        lua_pushcfunction(L, view_assign);
-        lua_setfield(L, -2, "__newindex");
-    }
-    lua_setmetatable(L, -2);
+    luaL_setmetatable(L, "venule.view");
+}
+
+void vnl_register_view(lua_State *L) {
+    luaL_newmetatable(L, "venule.view");
+    lua_pushcfunction(L, view_index);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, view_length);
+    lua_setfield(L, -2, "__len");
+    lua_pushcfunction(L, view_assign);
+    lua_setfield(L, -2, "__newindex");
+    lua_pop(L, 1);
 }

@@ -183,6 +183,7 @@ int luaopen_venule(lua_State *L) {
     for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
         vnl_register(L, classes[i]);
     }
+    vnl_register_view(L);
     vnl_push_functions(L, vnl_module_functions);
     add_functions(L, vnl_network_functions);
     add_functions(L, vnl_attractors_functions);

@@ -328,25 +328,39 @@ const vnl_class vnl_network_class = {
     .length = network_length,
 };
 
+static int free_set(lua_State *L) {
+    vn_networks_free(lua_touserdata(L, 1));
+    return 0;
+}
+
+// A set of Lua's own, so that its remains are freed even when Lua runs out of memory half way.
+static vn_network_set *push_set(lua_State *L) {
+    vn_network_set *set = lua_newuserdatauv(L, sizeof *set, 0);
+    *set = (vn_network_set){0};
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, free_set);
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2);
+    return set;
+}
+
 static int load_networks(lua_State *L) {
     const char *path = vnl_push_path(L, 1);
-    vn_network_set set;
-    vnl_try(L, vn_networks_load(&set, path));
-    // The set is handed over piece by piece; should Lua run out of memory here, its remains are lost to the
-    // process's end.
-    bool single = set.count == 1 && set.names[0][0] == '\0';
+    vn_network_set *set = push_set(L);
+    vnl_try(L, vn_networks_load(set, path));
+    bool single = set->count == 1 && set->names[0][0] == '\0';
     if (!single) {
-        lua_createtable(L, 0, set.count);
+        lua_createtable(L, 0, set->count);
     }
-    for (int32_t i = 0; i < set.count; i++) {
+    for (int32_t i = 0; i < set->count; i++) {
         void **box = vnl_push_box(L, &vnl_network_class);
-        *box = set.networks[i];
-        set.networks[i] = NULL;
+        *box = set->networks[i];
+        set->networks[i] = NULL;
         if (!single) {
-            lua_setfield(L, -2, set.names[i]);
+            lua_setfield(L, -2, set->names[i]);
         }
     }
-    vn_networks_free(&set);
+    vn_networks_free(set);
     return 1;
 }
 

@@ -53,8 +53,8 @@ function venule.save(path, networks) end
 function venule.attractors(options) end
 
 ---@class (exact) venule.canvas.Options
----@field width? number # width of the picture; 0: from the height and the view's proportions, or 800, pixels
----@field height? number # height of the picture; 0: from the width and the view's proportions, or 800, pixels
+---@field width? number # width of the picture; left out: from the height and the view's proportions, or 800, pixels
+---@field height? number # height of the picture; left out: from the width and the view's proportions, or 800, pixels
 ---@field view? any # what is fitted, centred, into the canvas; without it, 1 pixel is 1 unit and (0, 0) the lower left corner, length
 ---@field margin? number # kept free around the view, pixels (default 10)
 ---@field background? string # a colour, or "none" (default "none")

@@ -203,13 +203,26 @@ local function extension_of(path)
   return (path:match("%.(%w+)$") or ""):lower()
 end
 
+-- Before the run begins: nobody waits an hour to hear that a file cannot be of that kind.
+for _, path in ipairs(host.outputs) do
+  if not pictures[extension_of(path)] and extension_of(path) ~= "json" then
+    fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
+  end
+end
+
+local function check_networks(r)
+  for name, network in pairs(networks_of(r)) do
+    local class = type(network) == "userdata" and getmetatable(network).__name or type(network)
+    if class ~= "venule.network" then
+      error(("result.%s: a network expected, got %s"):format(r.networks and "networks." .. tostring(name) or "network", class), 3)
+    end
+  end
+end
+
 -- Before any is written: a run that must fail leaves no file behind.
 local function check_outputs(r, outputs)
   for _, path in ipairs(outputs) do
-    local extension = extension_of(path)
-    if not pictures[extension] and extension ~= "json" then
-      fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
-    elseif extension == "json" and not r.network and not r.networks then
+    if extension_of(path) == "json" and not r.network and not r.networks then
       fail_usage(("-o %s: the script gives no network to save"):format(path))
     end
   end
@@ -231,6 +244,7 @@ function scenario.result(given)
   if r.picture and kind ~= "userdata" and kind ~= "function" then
     error("result.picture: a canvas or a function expected, got " .. kind, 2)
   end
+  check_networks(r)
   if host.help then host.show_help({}) end
   scenario.tell_stall()
   local outputs = #host.outputs > 0 and host.outputs or default_outputs(r)
