@@ -140,8 +140,8 @@ local tables = {
   },
   canvas = {
     call = function(o) venule.canvas(o) end, optional = true,
-    width = {kind = "number", max = 32767, unit = "pixels", doc = "width of the picture; 0: from the height and the view's proportions, or 800"},
-    height = {kind = "number", max = 32767, unit = "pixels", doc = "height of the picture; 0: from the width and the view's proportions, or 800"},
+    width = {kind = "number", max = 32767, unit = "pixels", doc = "width of the picture; left out: from the height and the view's proportions, or 800"},
+    height = {kind = "number", max = 32767, unit = "pixels", doc = "height of the picture; left out: from the width and the view's proportions, or 800"},
     margin = {kind = "number", min = 0, max = 16383, unit = "pixels", doc = "kept free around the view"},
     background = {kind = "text", doc = "a colour, or \"none\""},
     unit = {kind = "text", doc = "length unit of the view: \"mm\", \"cm\", \"m\", \"um\", \"in\" or \"pt\"; pages (SVG, PDF) " ..
