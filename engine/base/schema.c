@@ -52,6 +52,10 @@ static bool is_number(const vn_field *field) {
 vn_status vn_check_def(const vn_schema *schema, const void *def) {
     for (int i = 0; i < schema->count; i++) {
         const vn_field *field = &schema->fields[i];
+        if (field->type == VN_OBJECT && (field->flags & VN_REQUIRED) &&
+            *(void *const *)(const void *)((const char *)def + field->offset) == NULL) {
+            return vn_fail(VN_INVALID, "%s: `%s` is missing: %s", schema->name, field->name, field->doc);
+        }
         if (!is_number(field)) {
             continue;
         }

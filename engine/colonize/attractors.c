@@ -217,12 +217,19 @@ vn_status vn_attractors_number(vn_attractors *a, int32_t index, int32_t *interna
     if (index < 0 || index >= a->x.count - a->gone) {
         return vn_fail(VN_INVALID, "an attractor must be one of the %d there are", a->x.count - a->gone);
     }
+    if (a->gone == 0) {
+        *internal = index;
+        return VN_OK;
+    }
     VN_TRY(list_present(a));
     *internal = a->present.data[index];
     return VN_OK;
 }
 
 int32_t vn_attractors_public(vn_attractors *a, int32_t internal) {
+    if (a->gone == 0) {
+        return internal;
+    }
     if (list_present(a) != VN_OK) {
         return -1;
     }

@@ -109,6 +109,7 @@ struct vn_influence {
     vn_attractors *attractors;
     vn_network *network;
     uint64_t attractors_version, network_version;
+    uint64_t network_serial;
     VN_ARRAY(int32_t) attractor;
     VN_ARRAY(int32_t) node;
     vn_keyed_array by_node; ///< working memory of vn_extend()

@@ -2,6 +2,7 @@
 // every run ends.
 
 #include "colonize/attractors.h"
+#include "domain/domain.h"
 
 static const vn_extend_def extend_default = {.length = 1};
 
@@ -118,15 +119,18 @@ typedef struct sight {
     const extension *e;
     int32_t attractor;
     double at[3];
-    int32_t tries; ///< nodes that may still be asked
+    int64_t tries; ///< nodes that may still be asked
+    vn_nearest *query;
 } sight;
 
-enum { GLANCE = 64, WHOLE_LOOK = INT32_MAX };
+// How many near nodes an attractor asks in passing, and how many all that wait may ask together at the last chance.
+enum { GLANCE = 64, LAST_LOOKS = 1 << 21 };
 
 static bool sees_and_may_grow(int32_t node, void *payload) {
     sight *s = payload;
     double q[3], p[3];
     if (s->tries-- <= 0) {
+        s->query->stop = true;
         return false;
     }
     vn_network_position(s->e->network, node, q);
@@ -150,9 +154,9 @@ static vn_status step_toward(const extension *e, int32_t node, int32_t attractor
 // The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one
 // among the nearest
 // @p tries.
-static vn_status look_for_sight(const extension *e, int32_t attractor, int32_t tries, bool *found) {
+static vn_status look_for_sight(const extension *e, int32_t attractor, int64_t tries, bool *found) {
     vn_attractors *a = e->a;
-    sight s = {e, attractor, {0, 0, 0}, tries};
+    sight s = {e, attractor, {0, 0, 0}, tries, NULL};
     vn_points points = vn_attractors_points(a);
     vn_points nodes = vn_network_points(e->network);
     const vn_point_grid *grid;
@@ -163,6 +167,7 @@ static vn_status look_for_sight(const extension *e, int32_t attractor, int32_t t
                         .id = a->id.data[attractor],
                         .accept = sees_and_may_grow,
                         .payload = &s};
+    s.query = &query;
     vn_point_grid_nearest(grid, &nodes, s.at, &query);
     *found = query.point >= 0;
     if (!*found) {
@@ -197,15 +202,18 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
     VN_TRY(look_for_sight(e, attractor, GLANCE, &found));
     if (!found) {
         VN_TRY(vn_array_push(&a->waiting, attractor));
+        double p[3];
+        vn_points points = vn_attractors_points(a);
+        vn_points_get(&points, attractor, p);
         a->node.data[attractor] = -1;
         a->near2.data[attractor] = a->consumed2;
+        vn_reach_tree_raise(&a->tree, p, a->consumed2);
     }
     return VN_OK;
 }
 
-// Those that wait look around again: seldom while veins grow elsewhere, and thoroughly when nothing else
-// does. Those that even then no node sees are retired.
-static vn_status look_again(const extension *e, bool last_chance) {
+// Those that wait look around again, among the nearest @p tries nodes.
+static vn_status look_again(const extension *e, int64_t tries) {
     vn_attractors *a = e->a;
     int32_t kept = 0;
     vn_status status = VN_OK;
@@ -213,11 +221,9 @@ static vn_status look_again(const extension *e, bool last_chance) {
         int32_t i = a->waiting.data[k];
         bool found = vn_is_gone(a, i) || a->node.data[i] >= 0;
         if (!found && status == VN_OK) {
-            status = look_for_sight(e, i, last_chance ? WHOLE_LOOK : GLANCE, &found);
+            status = look_for_sight(e, i, tries, &found);
         }
-        if (!found && last_chance && status == VN_OK) {
-            retire_hidden(a, i);
-        } else if (!found) {
+        if (!found) {
             a->waiting.data[kept++] = i;
         }
         status = status == VN_OK && k % 256 == 255 ? vn_poll() : status;
@@ -226,13 +232,29 @@ static vn_status look_again(const extension *e, bool last_chance) {
     return status;
 }
 
+static bool still_grows(const vn_domain *domain) {
+    return domain->kind->margin != NULL && !domain->kind->margin->is_grown(domain);
+}
+
+// Seldom while veins grow elsewhere, and thoroughly when nothing else does. What even then no node sees is retired, unless
+// the margin still moves.
 static vn_status mind_waiting(const extension *e, int32_t first) {
+    vn_attractors *a = e->a;
     bool grew = e->network->x.count > first;
-    if (e->a->waiting.count == 0 || (grew && e->network->step < e->a->next_look)) {
+    if (a->waiting.count == 0 || (grew && e->network->step < a->next_look)) {
         return VN_OK;
     }
-    e->a->next_look = e->network->step + 8 + e->network->step / 16;
-    return look_again(e, !grew);
+    int64_t share = LAST_LOOKS / a->waiting.count;
+    a->next_look = e->network->step + 8 + e->network->step / 16;
+    VN_TRY(look_again(e, grew || share < GLANCE ? GLANCE : share));
+    if (e->network->x.count > first || still_grows(e->def->domain)) {
+        return VN_OK;
+    }
+    for (int32_t k = 0; k < a->waiting.count; k++) {
+        retire_hidden(a, a->waiting.data[k]);
+    }
+    a->waiting.count = 0;
+    return VN_OK;
 }
 
 // An attractor that no vein comes nearer to, however often it pulls, is let go, or some run would never end.
@@ -245,8 +267,9 @@ static void lose_patience(const extension *e) {
             continue;
         }
         if (distance < (double)a->best.data[i] - 1e-3 * e->def->length) {
+            bool counted = isfinite(a->best.data[i]); // else it only starts to count: its patience is not renewed
             a->best.data[i] = (float)distance;
-            a->idle.data[i] &= VN_HIDDEN | VN_TURNS;
+            a->idle.data[i] &= counted ? VN_HIDDEN | VN_TURNS : 0xFF;
         } else if ((++a->idle.data[i] & VN_IDLE) > PATIENCE) {
             a->retired.circled++;
             vn_attractors_remove(a, i);
@@ -334,7 +357,8 @@ static vn_status grow_nodes(extension *e) {
 static vn_status check_extend(const vn_network *network, const vn_influence *influence,
                               const vn_extend_def *def) {
     VN_TRY(vn_check_def(&vn_extend_schema, def));
-    if (influence->network != network || !vn_influence_current(influence)) {
+    bool same = influence->network == network && influence->network_serial == network->serial;
+    if (!same || !vn_influence_current(influence)) {
         return vn_fail(VN_INVALID,
                        "extend: the influence is out of date, or of another network: call influence() "
                        "again after anything has changed");

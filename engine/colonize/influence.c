@@ -19,9 +19,9 @@ vn_influence_def vn_influence_def_default(void) {
     return influence_default;
 }
 
-// Merge what became active since into the ascending list, dropping what is gone.
-static vn_status renew_active(vn_attractors *a) {
-    VN_TRY(vn_sort_keyed(&a->activated, &a->scratch));
+// Drop what is gone, and what is listed as newly active although it is in the list: an attractor that lost its node and got
+// another one within the same step.
+static int32_t drop_idle(vn_attractors *a) {
     int32_t kept = 0;
     for (int32_t k = 0; k < a->active.count; k++) {
         int32_t i = a->active.data[k];
@@ -30,17 +30,36 @@ static vn_status renew_active(vn_attractors *a) {
         }
     }
     a->active.count = kept;
-    VN_TRY(vn_array_reserve(&a->active, kept + a->activated.count));
-    int32_t from = kept - 1;
-    int32_t to = kept + a->activated.count - 1;
-    for (int32_t k = a->activated.count - 1; k >= 0; k--) {
+    int32_t fresh = 0, at = 0;
+    for (int32_t k = 0; k < a->activated.count; k++) {
+        vn_keyed one = a->activated.data[k];
+        while (at < kept && a->active.data[at] < one.value) {
+            at++;
+        }
+        bool listed = at < kept && a->active.data[at] == one.value;
+        bool twice = fresh > 0 && a->activated.data[fresh - 1].value == one.value;
+        if (!listed && !twice && a->node.data[one.value] >= 0) {
+            a->activated.data[fresh++] = one;
+        }
+    }
+    return fresh;
+}
+
+// Merge what became active since into the ascending list.
+static vn_status renew_active(vn_attractors *a) {
+    VN_TRY(vn_sort_keyed(&a->activated, &a->scratch));
+    VN_TRY(vn_array_reserve(&a->active, (int64_t)a->active.count + a->activated.count));
+    int32_t fresh = drop_idle(a);
+    int32_t from = a->active.count - 1;
+    int32_t to = a->active.count + fresh - 1;
+    for (int32_t k = fresh - 1; k >= 0; k--) {
         int32_t i = a->activated.data[k].value;
         for (; from >= 0 && a->active.data[from] > i; from--) {
             a->active.data[to--] = a->active.data[from];
         }
         a->active.data[to--] = i;
     }
-    a->active.count = kept + a->activated.count;
+    a->active.count += fresh;
     a->activated.count = 0;
     return VN_OK;
 }
@@ -74,6 +93,7 @@ static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *net
     VN_TRY(list_pairs(influence, within));
     influence->attractors_version = a->version;
     influence->network_version = network->version;
+    influence->network_serial = network->serial;
     return VN_OK;
 }
 

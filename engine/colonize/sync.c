@@ -6,12 +6,13 @@
 #include "base/parallel.h"
 
 static void forget(vn_attractors *a, const vn_network *network, double reach2) {
+    bool moved = a->network_serial == network->serial && a->network_moved != network->moved;
     for (int32_t i = 0; i < a->x.count; i++) {
         if (!vn_is_gone(a, i)) {
             a->near2.data[i] = reach2;
             a->node.data[i] = -1;
-            a->idle.data[i] = 0;
-            a->best.data[i] = INFINITY;
+            a->idle.data[i] &= (uint8_t)~VN_HIDDEN; // its patience stays: no set lives for ever by changing networks
+            a->best.data[i] = moved ? INFINITY : a->best.data[i];
         }
     }
     a->network_serial = network->serial;
@@ -179,6 +180,8 @@ static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t b
     return status;
 }
 
+enum { FEW_NODES = 64 };
+
 vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach) {
     double reach2 = reach * reach;
     if (a->dim != network->dim) {
@@ -194,16 +197,16 @@ vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach
         a->near2.data[i] = vn_is_gone(a, i) ? -1 : a->reach2;
     }
     int32_t newcomers = a->x.count - known;
-    if (newcomers > network->x.count && a->nodes_seen == 0) {
-        known = a->x.count; // many attractors and few nodes: show these nodes to all
+    if (network->x.count <= FEW_NODES && a->nodes_seen == 0) {
+        known = a->x.count; // as quick as a look around from each, and needs no grid
         newcomers = 0;
     }
     // Half a sync that memory or time cut short would leave nodes unseen: then the next one starts over.
     a->network_serial = 0;
-    VN_TRY(show_nodes(a, network, a->nodes_seen, known));
     if (newcomers > 0) {
         VN_TRY(look_for_nodes(a, network, known));
     }
+    VN_TRY(show_nodes(a, network, a->nodes_seen, known));
     a->network_serial = network->serial;
     a->nodes_seen = network->x.count;
     a->attractors_seen = a->x.count;

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "domain/domain.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 static const vn_throw_def throw_default = {0};
@@ -36,7 +37,7 @@ vn_throw_def vn_throw_def_default(void) {
     return throw_default;
 }
 
-enum { DARTS_AT_ONCE = 1 << 16 };
+enum { DARTS_AT_ONCE = 1 << 14 };
 
 /// Darts that fly in parallel: each from random numbers of its own.
 typedef struct volley {
@@ -44,7 +45,7 @@ typedef struct volley {
     vn_rng rng;
     int64_t first; ///< the number of the first dart of this volley
     double (*at)[3];
-    bool *missed;
+    atomic_bool hopeless; ///< one dart has missed a million times: the others need not try
 } volley;
 
 static vn_rng dart_rng(const volley *v, int64_t dart) {
@@ -52,10 +53,15 @@ static vn_rng dart_rng(const volley *v, int64_t dart) {
 }
 
 static void fly(int64_t begin, int64_t end, void *payload) {
-    const volley *v = payload;
+    volley *v = payload;
     for (int64_t k = begin; k < end; k++) {
+        if (atomic_load_explicit(&v->hopeless, memory_order_relaxed)) {
+            return;
+        }
         vn_rng rng = dart_rng(v, v->first + k);
-        v->missed[k] = vn_domain_dart(v->domain, &rng, v->at[k]) != VN_OK;
+        if (vn_domain_dart(v->domain, &rng, v->at[k]) != VN_OK) {
+            atomic_store_explicit(&v->hopeless, true, memory_order_relaxed);
+        }
     }
 }
 
@@ -100,10 +106,6 @@ static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v
     const vn_point_grid *grid;
     VN_TRY(network_grid(def->network, def->clearance, &grid));
     for (int32_t k = 0; k < count; k++) {
-        if (v->missed[k]) {
-            vn_rng rng = dart_rng(v, v->first + k); // once more, for its message
-            VN_TRY(vn_domain_dart(v->domain, &rng, v->at[k]));
-        }
         if (is_clear(def->network, grid, def->clearance, v->at[k])) {
             VN_TRY(stick(a, def->spacing, v->at[k], accepted));
         }
@@ -115,19 +117,17 @@ static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t 
     int64_t room = darts < DARTS_AT_ONCE ? darts : DARTS_AT_ONCE;
     volley v = {.domain = def->domain, .rng = vn_rng_fork(def->rng)};
     v.at = vn_resize(NULL, 0, (size_t)room * sizeof *v.at);
-    v.missed = vn_resize(NULL, 0, (size_t)room);
     bool all_stick = def->spacing <= 0 && def->clearance <= 0;
     vn_status status = all_stick ? vn_attractors_expect(a, darts) : VN_OK;
-    if (room > 0 && (v.at == NULL || v.missed == NULL)) {
+    if (room > 0 && v.at == NULL) {
         status = vn_fail_memory("darts", (size_t)room * sizeof *v.at);
     }
     for (; status == VN_OK && v.first < darts; v.first += DARTS_AT_ONCE) {
         int32_t count = (int32_t)(darts - v.first < DARTS_AT_ONCE ? darts - v.first : DARTS_AT_ONCE);
         vn_parallel_for(count, 1024, fly, &v);
-        status = land(a, def, &v, count, accepted);
+        status = v.hopeless ? vn_domain_fail_dart(def->domain) : land(a, def, &v, count, accepted);
     }
     vn_resize(v.at, v.at != NULL ? (size_t)room * sizeof *v.at : 0, 0);
-    vn_resize(v.missed, v.missed != NULL ? (size_t)room : 0, 0);
     return status;
 }
 
@@ -259,6 +259,9 @@ vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
     if (a->margin == NULL) {
         return VN_OK;
     }
+    if (a->margin_clearance > 0 && network == NULL) {
+        return vn_fail(VN_INVALID, "these attractors are to keep clear of a network: hand it over beside them");
+    }
     const vn_point_grid *grid;
     double length = a->margin->kind->margin->length(a->margin);
     VN_TRY(network_grid(network, a->margin_clearance, &grid));
@@ -297,6 +300,11 @@ static vn_status check_throw(const vn_attractors *a, const vn_throw_def *def) {
 static vn_status throw_or_release(vn_attractors *a, const vn_throw_def *def, int32_t *accepted) {
     VN_TRY(check_throw(a, def));
     if (def->domain->kind->margin != NULL) {
+        if (a->margin != def->domain && a->dormant.count > 0) {
+            return vn_fail(VN_INVALID, "throw: %d of these attractors wait for the margin of another blade: use one set "
+                                       "for each blade",
+                           a->dormant.count);
+        }
         if (a->margin != def->domain) {
             VN_TRY(sow(a, def));
         }

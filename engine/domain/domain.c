@@ -109,6 +109,14 @@ bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3
     return domain->kind->sees != NULL ? domain->kind->sees(domain, p, q) : march(domain, p, q);
 }
 
+vn_status vn_domain_fail_dart(const vn_domain *domain) {
+    return vn_fail(
+        VN_INFEASIBLE,
+        "no dart of a million hit the %s: it fills less than a millionth of its bounds (is the outline "
+        "right, and is it filled?)",
+        domain->kind->name);
+}
+
 vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     for (int tries = 0; tries < 1000000; tries++) {
         p[2] = 0;
@@ -119,11 +127,7 @@ vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
             return VN_OK;
         }
     }
-    return vn_fail(
-        VN_INFEASIBLE,
-        "no dart of a million hit the %s: it fills less than a millionth of its bounds (is the outline "
-        "right, and is it filled?)",
-        domain->kind->name);
+    return vn_domain_fail_dart(domain);
 }
 
 vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *out) {

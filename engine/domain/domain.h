@@ -17,6 +17,7 @@ typedef struct vn_margin {
     /// The length at which the margin passes @p p; INFINITY when it never does.
     double (*arrival)(const vn_domain *domain, const double p[3]);
     double (*length)(const vn_domain *domain);                               ///< today's
+    bool (*is_grown)(const vn_domain *domain);
     void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
 } vn_margin;
 
@@ -51,6 +52,9 @@ void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim);
 
 /// Set `measure` to the area of the outline.
 vn_status vn_domain_measure_outline(vn_domain *domain);
+
+/// What vn_domain_dart() fails with.
+vn_status vn_domain_fail_dart(const vn_domain *domain);
 
 /// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of the
 /// radius.

@@ -23,19 +23,48 @@ static int32_t strip_of(const strips *s, double y) {
     return (int32_t)fmin(fmax(floor((y - s->min_y) / s->height), 0), s->count - 1);
 }
 
-static vn_status build_strips(polygon *poly) {
+static void strips_of(const strips *s, const vn_segment *edge, int32_t *first, int32_t *last) {
+    *first = strip_of(s, fmin(edge->y0, edge->y1));
+    *last = strip_of(s, fmax(edge->y0, edge->y1));
+}
+
+static int64_t count_entries(const strips *s, const vn_segment_grid *grid) {
+    int64_t entries = 0;
+    for (int32_t e = 0; e < grid->segments.count; e++) {
+        int32_t first, last;
+        strips_of(s, &grid->segments.data[e], &first, &last);
+        entries += last - first + 1;
+    }
+    return entries;
+}
+
+// As many strips as edges, but fewer where long edges would stand in too many of them.
+static int64_t choose_strips(polygon *poly) {
     strips *s = &poly->strips;
     int32_t edges = poly->grid.segments.count;
     double span = poly->base.bounds.max[1] - poly->base.bounds.min[1];
     s->min_y = poly->base.bounds.min[1];
     s->count = edges < 4096 ? edges : 4096;
-    s->height = span / s->count;
+    for (;;) {
+        s->height = span / s->count;
+        int64_t entries = count_entries(s, &poly->grid);
+        if (entries <= 16 * (int64_t)edges + 65536 || s->count == 1) {
+            return entries;
+        }
+        s->count = (s->count + 1) / 2;
+    }
+}
+
+static vn_status build_strips(polygon *poly) {
+    strips *s = &poly->strips;
+    int64_t entries = choose_strips(poly);
     VN_TRY(vn_array_zero(&s->starts, (int64_t)s->count + 2));
+    VN_TRY(vn_array_zero(&s->edges, entries));
     for (int pass = 0; pass < 2; pass++) {
-        for (int32_t e = 0; e < edges; e++) {
-            const vn_segment *edge = &poly->grid.segments.data[e];
-            int32_t last = strip_of(s, fmax(edge->y0, edge->y1));
-            for (int32_t i = strip_of(s, fmin(edge->y0, edge->y1)); i <= last; i++) {
+        for (int32_t e = 0; e < poly->grid.segments.count; e++) {
+            int32_t first, last;
+            strips_of(s, &poly->grid.segments.data[e], &first, &last);
+            for (int32_t i = first; i <= last; i++) {
                 if (pass == 0) {
                     s->starts.data[i + 2]++;
                 } else {
@@ -45,9 +74,6 @@ static vn_status build_strips(polygon *poly) {
         }
         for (int32_t i = 0; pass == 0 && i <= s->count; i++) {
             s->starts.data[i + 1] += s->starts.data[i];
-        }
-        if (pass == 0) {
-            VN_TRY(vn_array_zero(&s->edges, s->starts.data[s->count + 1]));
         }
     }
     return VN_OK;

@@ -70,6 +70,9 @@ static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
 
 vn_status vn_growth_make(vn_growth **out, const vn_domain_kind *kind, const vn_growth_def *def) {
     *out = NULL;
+    if (def->domain->kind->margin != NULL) {
+        return vn_fail(VN_INVALID, "a growth of a growing domain: give the shape itself");
+    }
     vn_growth *growth = vn_domain_new(kind, sizeof *growth, def->domain->dim);
     if (growth == NULL) {
         return vn_fail_memory("a growth", sizeof *growth);
@@ -113,6 +116,8 @@ static const vn_domain_kind still_kind = {.name = "blade",
                                           .outline = still_outline};
 
 vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def) {
+    *out = NULL;
+    VN_TRY(vn_check_def(&vn_none_schema, def));
     return vn_growth_make(out, &still_kind, def);
 }
 

@@ -33,18 +33,26 @@ void vn_network_count_tips(const vn_network *network, int32_t *tips) {
     }
 }
 
-void vn_network_settle(const vn_network *constant) {
-    vn_network *network =
-        (vn_network *)constant; // the counts are a cache: their value was settled by the growth
-    if (network->recount) {
-        vn_network_count_tips(network, network->tips.data);
-    } else {
-        for (int32_t i = 0; i < network->pending.count; i++) {
-            int32_t node = network->pending.data[i];
-            for (; node >= 0; node = network->parent.data[node]) {
-                network->tips.data[node]++;
-            }
+// Tell those above each pending node; false when that takes longer than counting all anew. Counts are then in between.
+static bool climb(vn_network *network) {
+    int64_t steps = 0;
+    for (int32_t i = 0; i < network->pending.count; i++) {
+        int32_t node = network->pending.data[i];
+        for (; node >= 0; node = network->parent.data[node]) {
+            network->tips.data[node]++;
+            steps++;
         }
+        if (steps > network->x.count) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void vn_network_settle(const vn_network *constant) {
+    vn_network *network = (vn_network *)constant; // the counts are a cache: their value was settled by the growth
+    if (network->recount || !climb(network)) {
+        vn_network_count_tips(network, network->tips.data);
     }
     network->pending.count = 0;
     network->recount = false;

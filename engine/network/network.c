@@ -326,9 +326,25 @@ vn_status vn_network_from_columns(vn_network **out, const vn_network_columns *co
     return VN_OK;
 }
 
+static double largest_number(const vn_network *network) {
+    double largest = network->law.tip_radius;
+    for (int32_t i = 0; i < network->x.count; i++) {
+        double p[3];
+        vn_network_position(network, i, p);
+        largest = fmax(largest, fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2]))));
+    }
+    for (int32_t i = 0; i < network->radius.count; i++) {
+        largest = fmax(largest, network->radius.data[i]);
+    }
+    return largest;
+}
+
 vn_status vn_network_scale(vn_network *network, double factor) {
     if (!(factor > 0 && factor <= VN_HUGE)) {
         return vn_fail(VN_INVALID, "network.scale: the factor %g must be above 0", factor);
+    }
+    if (!(largest_number(network) * factor <= VN_HUGE)) {
+        return vn_fail(VN_INVALID, "network.scale: the factor %g takes coordinates beyond %g", factor, VN_HUGE);
     }
     for (int32_t i = 0; i < network->x.count; i++) {
         network->x.data[i] *= factor;
@@ -361,11 +377,12 @@ static double typical_spacing(const vn_network *network) {
 vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid **grid) {
     vn_point_grid *g = &network->grid;
     bool fits = g->cell > 0 && (reach <= 0 || (reach <= 8 * g->cell && g->cell <= 8 * reach));
-    bool outgrown = g->cell > 0 && reach <= 0 && network->x.count > 16 * (vn_point_grid_count(g) + 64);
+    bool outgrown = g->cell > 0 && reach <= 0 && network->x.count > 16 * ((int64_t)network->grid_count + 4);
     if (!fits || outgrown || network->grid_moved != network->moved) {
         vn_point_grid_free(g);
         vn_point_grid_init(g, network->dim, reach > 0 ? reach : typical_spacing(network));
         network->grid_moved = network->moved;
+        network->grid_count = network->x.count;
     }
     vn_points points = vn_network_points(network);
     *grid = g;

@@ -45,6 +45,7 @@ struct vn_network {
     uint64_t moved;   ///< changes when nodes that were there moved
     vn_point_grid grid;
     uint64_t grid_moved;
+    int32_t grid_count; ///< nodes when its cells were chosen
 };
 
 static inline vn_points vn_network_points(const vn_network *network) {

@@ -59,8 +59,12 @@ static void hickey(const vn_network *network, const int32_t *tips, int32_t *orde
 
 vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind) {
     VN_ARRAY(int32_t) tips = {0};
-    VN_TRY(vn_array_zero(&network->orders, network->x.count));
     VN_TRY(vn_array_zero(&tips, network->x.count));
+    vn_status status = vn_array_zero(&network->orders, network->x.count);
+    if (status != VN_OK) {
+        vn_array_free(&tips);
+        return status;
+    }
     vn_network_count_tips(network, tips.data);
     if (kind == VN_STRAHLER) {
         strahler(network, network->orders.data);

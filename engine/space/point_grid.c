@@ -188,11 +188,11 @@ static bool ask_nearest(walk *w, int32_t point) {
         query->reach2 = d2;
         query->point = point;
     }
-    return false;
+    return query->stop;
 }
 
 // The faces of a cube of cells around the centre, `ring` cells away: what is new since the last ring.
-static void ask_ring(walk *w, const int64_t centre[3], int64_t ring) {
+static bool ask_ring(walk *w, const int64_t centre[3], int64_t ring) {
     const vn_point_grid *grid = w->grid;
     for (int axis = 0; axis < grid->dim; axis++) {
         for (int side = -1; side <= 1; side += 2) {
@@ -203,9 +203,12 @@ static void ask_ring(walk *w, const int64_t centre[3], int64_t ring) {
                 high[k] = k == axis ? low[k] : centre[k] + reach;
             }
             cell_box box = clip_box(grid, low, high);
-            ask_box(w, &box);
+            if (ask_box(w, &box)) {
+                return true;
+            }
         }
     }
+    return false;
 }
 
 static int64_t first_ring(const vn_point_grid *grid, const int64_t centre[3]) {
@@ -251,10 +254,9 @@ void vn_point_grid_nearest(const vn_point_grid *grid, const vn_points *points, c
             ask_all(&w); // sparse: walking empty cells costs more than asking everybody
             return;
         }
-        if (ring == 0) {
-            ask_cell(&w, centre[0], centre[1], centre[2]);
-        } else {
-            ask_ring(&w, centre, ring);
+        bool stopped = ring == 0 ? ask_cell(&w, centre[0], centre[1], centre[2]) : ask_ring(&w, centre, ring);
+        if (stopped) {
+            return;
         }
     }
 }

@@ -29,20 +29,18 @@ static int attractors_add(lua_State *L) {
 }
 
 static int attractors_throw(lua_State *L) {
-    vn_attractors *attractors = check_attractors(L);
     vn_throw_def def;
     int32_t accepted;
     vnl_read_options(L, 2, &vn_throw_schema, &def);
+    vn_attractors *attractors = check_attractors(L);
     vnl_try(L, vn_throw(attractors, &def, &accepted));
     lua_pushinteger(L, accepted);
     return 1;
 }
 
 static int attractors_influence(lua_State *L) {
-    vn_attractors *attractors = check_attractors(L);
-    vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vn_influence_def def;
-    vnl_read_options(L, 3, &vn_influence_schema, &def);
+    lua_settop(L, 3);
     void **box = vnl_push_box(L, &vnl_influence_class);
     lua_createtable(L, 2, 0); // an influence looks at both: they must outlive it
     lua_pushvalue(L, 1);
@@ -50,16 +48,19 @@ static int attractors_influence(lua_State *L) {
     lua_pushvalue(L, 2);
     lua_rawseti(L, -2, 2);
     lua_setiuservalue(L, -2, 1);
+    vnl_read_options(L, 3, &vn_influence_schema, &def);
+    vn_attractors *attractors = check_attractors(L);
+    vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vnl_try(L, vn_influence_find((vn_influence **)box, attractors, network, &def));
     return 1;
 }
 
 static int attractors_consume(lua_State *L) {
-    vn_attractors *attractors = check_attractors(L);
-    vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vn_consume_def def;
     int32_t consumed;
     vnl_read_options(L, 3, &vn_consume_schema, &def);
+    vn_attractors *attractors = check_attractors(L);
+    vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vnl_try(L, vn_consume(attractors, network, &def, &consumed));
     lua_pushinteger(L, consumed);
     return 1;
@@ -116,7 +117,7 @@ static int push_retired(lua_State *L, const vn_attractors *attractors) {
 static int attractors_field(lua_State *L) {
     const vn_attractors *attractors = check_attractors(L);
     static vnl_read_fn *const reads[3] = {read_x, read_y, read_z};
-    const char *key = luaL_tolstring(L, 2, NULL);
+    const char *key = lua_tostring(L, 2);
     if (key[0] >= 'x' && key[0] <= 'z' && key[1] == '\0') {
         vnl_push_view(L, 1, &vnl_attractors_class, reads[key[0] - 'x'], count_attractors);
         return 1;
@@ -162,8 +163,9 @@ static void release_influence(void *object) {
     vn_influence_destroy(object);
 }
 
-static const vn_influence *check_current(lua_State *L, int index) {
-    const vn_influence *influence = vnl_check(L, index, &vnl_influence_class);
+vn_influence *vnl_check_influence(lua_State *L, int index) {
+    index = lua_absindex(L, index);
+    vn_influence *influence = vnl_check(L, index, &vnl_influence_class);
     lua_getiuservalue(L, index, 1);
     for (int i = 1; i <= 2; i++) {
         lua_rawgeti(L, -1, i);
@@ -178,7 +180,7 @@ static const vn_influence *check_current(lua_State *L, int index) {
 }
 
 static int next_pair(lua_State *L) {
-    const vn_influence *influence = check_current(L, lua_upvalueindex(1));
+    const vn_influence *influence = vnl_check_influence(L, lua_upvalueindex(1));
     int32_t pair = (int32_t)lua_tointeger(L, lua_upvalueindex(2));
     if (pair >= vn_influence_count(influence)) {
         return 0;
@@ -191,7 +193,7 @@ static int next_pair(lua_State *L) {
 }
 
 static int influence_pairs(lua_State *L) {
-    check_current(L, 1);
+    vnl_check_influence(L, 1);
     lua_pushvalue(L, 1);
     lua_pushinteger(L, 0);
     lua_pushcclosure(L, next_pair, 2);

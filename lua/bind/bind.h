@@ -81,8 +81,17 @@ vn_status vnl_status_of(lua_State *L, const char *message);
 /// types and ranges checked, required fields demanded. VN_MIXED fields are left to the caller. Text stays
 /// valid while the table lives.
 void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def);
+// Options are read raw, and everything that may run Lua (callbacks, the manifest, an allocation that collects garbage) comes
+// before the objects are fetched by vnl_check(): whatever Lua runs may close them.
+
+/// Push a field of the table at @p index without asking its metatable; returns its type.
+int vnl_raw_field(lua_State *L, int index, const char *field);
 /// Whether the table at @p index has the field; used where "not given" differs from every value.
 bool vnl_has(lua_State *L, int index, const char *field);
+/// A whole number that is not a string that looks like one.
+lua_Integer vnl_check_integer(lua_State *L, int index, const char *what);
+/// The influence at @p index, whose attractors and network are open, and unchanged since.
+vn_influence *vnl_check_influence(lua_State *L, int index);
 /// Read a point {x, y[, z]}; returns how many coordinates it has. @p what names it in errors.
 int vnl_read_point(lua_State *L, int index, const char *what, double p[3]);
 /// The coordinates x, y[, z] given as arguments from @p index on, for something of @p dim dimensions.

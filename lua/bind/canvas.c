@@ -15,17 +15,17 @@ static vn_canvas *check_canvas(lua_State *L) {
 
 // The view: bounds as domain:bounds() gives them, which may bring their unit.
 static void read_view(lua_State *L, vn_canvas_def *def) {
-    if (lua_getfield(L, 1, "view") != LUA_TNIL) {
+    if (vnl_raw_field(L, 1, "view") != LUA_TNIL) {
         if (!lua_istable(L, -1)) {
             vnl_fail(
                 L, "canvas.view: {min = {x, y}, max = {x, y}} expected, as domain:bounds() gives it, got %s",
                 luaL_typename(L, -1));
         }
-        lua_getfield(L, -1, "min");
+        vnl_raw_field(L, -1, "min");
         vnl_read_point(L, -1, "canvas.view.min", def->view.min);
-        lua_getfield(L, -2, "max");
+        vnl_raw_field(L, -2, "max");
         vnl_read_point(L, -1, "canvas.view.max", def->view.max);
-        lua_getfield(L, -3, "unit");
+        vnl_raw_field(L, -3, "unit");
         if (lua_type(L, -1) == LUA_TSTRING && !vnl_has(L, 1, "unit")) {
             def->unit = lua_tostring(L, -1); // held by the view's own table
         }
@@ -44,60 +44,95 @@ static int make_canvas(lua_State *L) {
 }
 
 static int canvas_fill(lua_State *L) {
-    vn_canvas *canvas = check_canvas(L);
-    const vn_domain *domain = vnl_check_domain(L, 2);
     vn_fill_def def;
     vnl_read_options(L, 3, &vn_fill_schema, &def);
-    vnl_try(L, vn_canvas_fill(canvas, domain, &def));
+    vn_canvas *canvas = check_canvas(L);
+    vnl_try(L, vn_canvas_fill(canvas, vnl_check_domain(L, 2), &def));
     return 0;
 }
 
-// width = function(node) … end: called once a node, before the engine is.
-static void read_widths(lua_State *L, int source, const vn_network *network, vn_stroke_def *def) {
-    int32_t count = vn_network_count(network);
-    double *widths = lua_newuserdatauv(L, ((size_t)count + 1) * sizeof *widths, 0);
+// width = function(node) … end: called once a node. What it does to the network meanwhile is seen afterwards.
+static int32_t read_widths(lua_State *L, int source, double **widths) {
+    int32_t count = vn_network_count(vnl_check(L, 2, &vnl_network_class));
+    *widths = lua_newuserdatauv(L, ((size_t)count + 1) * sizeof **widths, 0);
     for (int32_t i = 0; i < count; i++) {
         lua_pushvalue(L, source);
         lua_pushinteger(L, i + 1);
         lua_call(L, 1, 1);
-        widths[i] = vnl_check_number(L, -1, "stroke.width");
-        if (!(widths[i] >= 0 && widths[i] <= VN_HUGE)) { // the engine would count nodes from 0
-            vnl_fail(L, "stroke.width: that of node %d is %g; give 0 or more", i + 1, widths[i]);
+        double width = vnl_check_number(L, -1, "stroke.width");
+        if (!(width >= 0 && width <= VN_HUGE)) { // the engine would count nodes from 0
+            vnl_fail(L, "stroke.width: that of node %d is %g; give 0 or more", i + 1, width);
         }
+        (*widths)[i] = width;
         lua_pop(L, 1);
     }
-    def->widths = widths;
+    return count;
+}
+
+static double constant_width(lua_State *L, int index) {
+    bool radius = lua_type(L, index) == LUA_TSTRING && strcmp(lua_tostring(L, index), "radius") == 0;
+    if (radius || lua_isnil(L, index)) {
+        return 0;
+    }
+    if (lua_type(L, index) != LUA_TNUMBER) {
+        vnl_fail(L, "stroke.width: \"radius\", a number or a function of the node expected, got %s",
+                 lua_isstring(L, index) ? lua_tostring(L, index) : luaL_typename(L, index));
+    }
+    double width = lua_tonumber(L, index);
+    if (!(width > 0 && width <= VN_HUGE)) {
+        vnl_fail(L, "stroke.width = %g must be above 0 and finite (length)", width);
+    }
+    return width;
 }
 
 static int canvas_stroke(lua_State *L) {
+    vn_stroke_def def;
+    double *widths = NULL;
+    int32_t count = 0;
+    lua_settop(L, 3);
+    vnl_read_options(L, 3, &vn_stroke_schema, &def);
+    bool call = vnl_raw_field(L, 3, "width") == LUA_TFUNCTION;
+    if (call) {
+        count = read_widths(L, 4, &widths);
+    } else {
+        def.width = constant_width(L, 4);
+    }
+    def.widths = widths;
     vn_canvas *canvas = check_canvas(L);
     const vn_network *network = vnl_check(L, 2, &vnl_network_class);
-    vn_stroke_def def;
-    vnl_read_options(L, 3, &vn_stroke_schema, &def);
-    lua_getfield(L, 3, "width");
-    bool radius = lua_type(L, -1) == LUA_TSTRING && strcmp(lua_tostring(L, -1), "radius") == 0;
-    if (lua_isfunction(L, -1)) {
-        read_widths(L, lua_gettop(L), network, &def);
-    } else if (lua_type(L, -1) == LUA_TNUMBER) {
-        def.width = lua_tonumber(L, -1);
-        if (!(def.width > 0 && def.width <= VN_HUGE)) {
-            return vnl_fail(L, "stroke.width = %g must be above 0 and finite (length)", def.width);
-        }
-    } else if (!radius && !lua_isnil(L, -1)) {
-        return vnl_fail(L, "stroke.width: \"radius\", a number or a function of the node expected, got %s",
-                        lua_isstring(L, -1) ? lua_tostring(L, -1) : luaL_typename(L, -1));
+    if (call && vn_network_count(network) != count) {
+        return vnl_fail(L, "stroke.width: the function must not change the network");
     }
     vnl_try(L, vn_canvas_stroke(canvas, network, &def));
     return 0;
 }
 
+static int64_t count_points(lua_State *L, int index) {
+    const vn_attractors *attractors = vnl_test(L, index, &vnl_attractors_class);
+    if (attractors != NULL) {
+        return vn_attractors_count(attractors);
+    }
+    luaL_checktype(L, index, LUA_TTABLE);
+    return (int64_t)lua_rawlen(L, index);
+}
+
+static void read_point(lua_State *L, int index, int32_t i, double p[3]) {
+    vn_attractors *attractors = vnl_test(L, index, &vnl_attractors_class);
+    if (attractors != NULL) {
+        vnl_try(L, vn_attractors_position(attractors, i, p));
+        return;
+    }
+    lua_rawgeti(L, index, i + 1);
+    vnl_read_point(L, -1, "dots", p);
+    lua_pop(L, 1);
+    if (!(fabs(p[0]) <= VN_HUGE && fabs(p[1]) <= VN_HUGE)) {
+        vnl_fail(L, "dots: point %d = (%g, %g) is not finite", i + 1, p[0], p[1]);
+    }
+}
+
 // Points of an attractors set or of a list {{x, y}, …}, copied into memory that Lua owns.
 static int32_t read_points(lua_State *L, int index, double **x, double **y) {
-    vn_attractors *attractors = vnl_test(L, index, &vnl_attractors_class);
-    if (attractors == NULL) {
-        luaL_checktype(L, index, LUA_TTABLE);
-    }
-    lua_Integer count = attractors != NULL ? vn_attractors_count(attractors) : luaL_len(L, index);
+    int64_t count = count_points(L, index);
     if (count > 100000000) {
         vnl_fail(L, "dots: %lld points are above the limit of 100,000,000", (long long)count);
     }
@@ -105,16 +140,7 @@ static int32_t read_points(lua_State *L, int index, double **x, double **y) {
     *y = *x + count;
     for (int32_t i = 0; i < count; i++) {
         double p[3];
-        if (attractors != NULL) {
-            vnl_try(L, vn_attractors_position(attractors, i, p));
-        } else {
-            lua_geti(L, index, i + 1);
-            vnl_read_point(L, -1, "dots", p);
-            lua_pop(L, 1);
-            if (!(fabs(p[0]) <= VN_HUGE && fabs(p[1]) <= VN_HUGE)) {
-                vnl_fail(L, "dots: point %d = (%g, %g) is not finite", i + 1, p[0], p[1]);
-            }
-        }
+        read_point(L, index, i, p);
         (*x)[i] = p[0];
         (*y)[i] = p[1];
     }
@@ -122,29 +148,27 @@ static int32_t read_points(lua_State *L, int index, double **x, double **y) {
 }
 
 static int canvas_dots(lua_State *L) {
-    vn_canvas *canvas = check_canvas(L);
     vn_dots_def def;
     double *x, *y;
+    lua_settop(L, 3);
     vnl_read_options(L, 3, &vn_dots_schema, &def);
     int32_t count = read_points(L, 2, &x, &y);
-    vnl_try(L, vn_canvas_dots(canvas, x, y, count, &def));
+    vnl_try(L, vn_canvas_dots(check_canvas(L), x, y, count, &def));
     return 0;
 }
 
 static int canvas_text(lua_State *L) {
-    vn_canvas *canvas = check_canvas(L);
     const char *text = luaL_checkstring(L, 2);
     vn_text_def def;
     vnl_read_options(L, 3, &vn_text_schema, &def);
-    vnl_try(L, vn_canvas_text(canvas, text, &def));
+    vnl_try(L, vn_canvas_text(check_canvas(L), text, &def));
     return 0;
 }
 
 static int canvas_save(lua_State *L) {
-    const vn_canvas *canvas = check_canvas(L);
     const char *path = luaL_checkstring(L, 2);
     const char *manifest = vnl_push_manifest(L);
-    vnl_try(L, vn_canvas_save(canvas, path, manifest));
+    vnl_try(L, vn_canvas_save(check_canvas(L), path, manifest));
     return 0;
 }
 
@@ -167,7 +191,7 @@ static const vnl_function methods[] = {
 
 static int canvas_field(lua_State *L) {
     const vn_canvas *canvas = check_canvas(L);
-    const char *key = luaL_tolstring(L, 2, NULL);
+    const char *key = lua_tostring(L, 2);
     if (strcmp(key, "width") == 0) {
         lua_pushnumber(L, vn_canvas_width(canvas));
     } else if (strcmp(key, "height") == 0) {

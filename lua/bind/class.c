@@ -7,23 +7,23 @@
 
 static const char *const STATUS_KEY = "venule.status";
 
-static void push_metatable_name(lua_State *L, const vnl_class *class) {
-    lua_pushfstring(L, "venule.%s", class->name);
-}
-
+// The metatable stands in the registry under the class's address. Looking it up allocates nothing, so that no garbage
+// collection, and no finaliser of a script's, can run between the check of an object and its use.
 static void **box_at(lua_State *L, int index, const vnl_class *class) {
-    index = lua_absindex(L, index);
-    push_metatable_name(L, class);
-    void **box = luaL_testudata(L, index, lua_tostring(L, -1));
-    lua_pop(L, 1);
-    return box;
+    void **box = lua_touserdata(L, index);
+    if (box == NULL || !lua_getmetatable(L, index)) {
+        return NULL;
+    }
+    lua_rawgetp(L, LUA_REGISTRYINDEX, class);
+    bool same = lua_rawequal(L, -1, -2);
+    lua_pop(L, 2);
+    return same ? box : NULL;
 }
 
 void **vnl_push_box(lua_State *L, const vnl_class *class) {
     void **box = lua_newuserdatauv(L, sizeof *box, 1);
     *box = NULL;
-    push_metatable_name(L, class);
-    lua_rawget(L, LUA_REGISTRYINDEX);
+    lua_rawgetp(L, LUA_REGISTRYINDEX, class);
     lua_setmetatable(L, -2);
     return box;
 }
@@ -50,8 +50,10 @@ vn_domain *vnl_test_domain(lua_State *L, int index) {
 }
 
 vn_domain *vnl_check_domain(lua_State *L, int index) {
-    vn_domain *domain = vnl_test_domain(L, index);
-    return domain != NULL ? domain : vnl_check(L, index, &vnl_domain_class);
+    if (box_at(L, index, &vnl_growth_class) != NULL) {
+        return vn_growth_domain(vnl_check(L, index, &vnl_growth_class));
+    }
+    return vnl_check(L, index, &vnl_domain_class);
 }
 
 void vnl_keep(lua_State *L, int object, int value) {
@@ -65,7 +67,7 @@ static void push_where(lua_State *L) {
     lua_Debug at;
     for (int level = 0; lua_getstack(L, level, &at); level++) {
         lua_getinfo(L, "Sl", &at);
-        bool own = strncmp(at.source, "@venule.", 8) == 0;
+        bool own = strncmp(at.source, "=venule.", 8) == 0; // a script's own name begins with '@'
         if (at.currentline > 0 && !own) {
             lua_pushfstring(L, "%s:%d: ", at.short_src, at.currentline);
             return;
@@ -150,6 +152,7 @@ static int count_names(const vnl_class *class, const char **names, int room) {
     for (const vnl_function *f = class->extra; f != NULL && f->name != NULL && count < room; f++) {
         names[count++] = f->name;
     }
+    names[count++] = "close";
     return count;
 }
 
@@ -177,7 +180,7 @@ static int index_box(lua_State *L) {
     if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) {
         return 1;
     }
-    if (class->field != NULL) {
+    if (class->field != NULL && lua_type(L, 2) == LUA_TSTRING) {
         lua_settop(L, 2);
         vnl_check(L, 1, class);
         int results = class->field(L);
@@ -214,11 +217,11 @@ static void set_with_class(lua_State *L, const vnl_class *class, const char *nam
 }
 
 void vnl_register(lua_State *L, const vnl_class *class) {
-    push_metatable_name(L, class);
-    if (!luaL_newmetatable(L, lua_tostring(L, -1))) {
-        lua_pop(L, 2);
-        return;
-    }
+    lua_createtable(L, 0, 8);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, class);
+    lua_pushfstring(L, "venule.%s", class->name);
+    lua_setfield(L, -2, "__name");
     set_with_class(L, class, "__gc", close_box);
     set_with_class(L, class, "__close", close_box);
     set_with_class(L, class, "__tostring", show_box);
@@ -235,7 +238,7 @@ void vnl_register(lua_State *L, const vnl_class *class) {
     set_with_class(L, class, "close", close_box);
     lua_pushcclosure(L, index_box, 2);
     lua_setfield(L, -2, "__index");
-    lua_pop(L, 2);
+    lua_pop(L, 1);
 }
 
 /// A column seen from Lua. It fetches the data at each access, so that growth of the object does not matter

@@ -40,7 +40,7 @@ static int make_sphere(lua_State *L) {
 
 static int point_dim(lua_State *L, int index, const char *field) {
     double p[3];
-    lua_getfield(L, index, field);
+    vnl_raw_field(L, index, field);
     int dim = vnl_read_point(L, -1, field, p);
     lua_pop(L, 1);
     return dim;
@@ -61,8 +61,8 @@ static int make_box(lua_State *L) {
 // A ring is a list of points; a list of rings has a list of points as its first element.
 static bool is_ring(lua_State *L, int index) {
     bool ring = false;
-    if (lua_geti(L, index, 1) == LUA_TTABLE) {
-        ring = lua_geti(L, -1, 1) == LUA_TNUMBER;
+    if (lua_rawgeti(L, index, 1) == LUA_TTABLE) {
+        ring = lua_rawgeti(L, -1, 1) == LUA_TNUMBER;
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
@@ -72,7 +72,7 @@ static bool is_ring(lua_State *L, int index) {
 static void read_ring(lua_State *L, int index, double *xy, lua_Integer count) {
     for (lua_Integer i = 0; i < count; i++) {
         double p[3];
-        lua_geti(L, index, i + 1);
+        lua_rawgeti(L, index, i + 1);
         vnl_read_point(L, -1, "polygon", p);
         lua_pop(L, 1);
         xy[2 * i] = p[0];
@@ -84,7 +84,7 @@ static lua_Integer ring_size(lua_State *L, int index) {
     if (lua_type(L, index) != LUA_TTABLE) {
         vnl_fail(L, "polygon: a ring {{x, y}, …} expected, got %s", luaL_typename(L, index));
     }
-    lua_Integer size = luaL_len(L, index);
+    lua_Integer size = (lua_Integer)lua_rawlen(L, index);
     if (size > 10000000) {
         vnl_fail(L, "polygon: a ring of %lld points is above the limit of 10,000,000", (long long)size);
     }
@@ -96,24 +96,24 @@ static int make_polygon(lua_State *L) {
     if (is_ring(L, 1)) { // polygon{{x, y}, …}: one ring and no braces to spare
         lua_createtable(L, 1, 0);
         lua_pushvalue(L, 1);
-        lua_seti(L, -2, 1);
+        lua_rawseti(L, -2, 1);
         lua_replace(L, 1);
     }
-    lua_Integer rings = luaL_len(L, 1);
+    lua_Integer rings = (lua_Integer)lua_rawlen(L, 1);
     if (rings > 100000) {
         return vnl_fail(L, "polygon: %lld rings are above the limit of 100,000", (long long)rings);
     }
     lua_Integer total = 0;
     int32_t *sizes = lua_newuserdatauv(L, (size_t)(rings + 1) * sizeof *sizes, 0);
     for (lua_Integer r = 0; r < rings; r++, lua_pop(L, 1)) {
-        lua_geti(L, 1, r + 1);
+        lua_rawgeti(L, 1, r + 1);
         sizes[r] = (int32_t)ring_size(L, lua_gettop(L));
         total += sizes[r];
     }
     double *xy = lua_newuserdatauv(L, (size_t)(2 * total + 1) * sizeof *xy, 0);
     double *at = xy;
     for (lua_Integer r = 0; r < rings; r++, lua_pop(L, 1)) {
-        lua_geti(L, 1, r + 1);
+        lua_rawgeti(L, 1, r + 1);
         read_ring(L, lua_gettop(L), at, sizes[r]);
         at += 2 * sizes[r];
     }
@@ -130,7 +130,7 @@ static void read_samples(lua_State *L, int index, double *samples, int32_t count
             lua_pushnumber(L, (double)i / (count - 1));
             lua_call(L, 1, 1);
         } else {
-            lua_geti(L, index, i + 1);
+            lua_rawgeti(L, index, i + 1);
         }
         samples[i] = vnl_check_number(L, -1, "profile.half_width");
         lua_pop(L, 1);
@@ -140,10 +140,10 @@ static void read_samples(lua_State *L, int index, double *samples, int32_t count
 static int make_profile(lua_State *L) {
     vn_profile_def def;
     vnl_read_options(L, 1, &vn_profile_schema, &def);
-    lua_getfield(L, 1, "half_width");
+    vnl_raw_field(L, 1, "half_width");
     int source = lua_gettop(L);
     if (lua_istable(L, source)) {
-        lua_Integer count = luaL_len(L, source);
+        lua_Integer count = (lua_Integer)lua_rawlen(L, source);
         def.samples = count < 1000000 ? (int32_t)count : 1000000;
     } else if (!lua_isfunction(L, source)) {
         return vnl_fail(L, "profile.half_width: a function of t or a table of numbers expected, got %s",
@@ -230,40 +230,44 @@ static int domain_measure(lua_State *L) {
     return 1;
 }
 
-static int domain_sample(lua_State *L) {
-    vn_domain *domain = vnl_check_domain(L, 1);
-    lua_Integer count = luaL_checkinteger(L, 2);
-    if (count < 1 || count > 100000000) {
-        return vnl_fail(L, "domain:sample(%lld): from 1 to 100,000,000 points", (long long)count);
-    }
-    vn_throw_def def;
-    vnl_read_options(L, 3, &sample_schema, &def);
-    def.domain = domain;
-    def.count = (int32_t)count;
-    vn_attractors_def set = vn_attractors_def_default();
-    set.dim = vn_domain_dim(domain);
-    void **box = vnl_push_box(L, &vnl_attractors_class);
-    vnl_try(L, vn_attractors_create((vn_attractors **)box, &set));
-    int32_t accepted;
-    vnl_try(L, vn_throw(*box, &def, &accepted));
-    lua_createtable(L, accepted, 0);
-    for (int32_t i = 0; i < accepted; i++) {
+static void push_points(lua_State *L, vn_attractors *points, int32_t count, int dim) {
+    lua_createtable(L, count, 0);
+    for (int32_t i = 0; i < count; i++) {
         double p[3];
-        vnl_try(L, vn_attractors_position(*box, i, p));
-        lua_createtable(L, set.dim, 0);
-        for (int k = 0; k < set.dim; k++) {
+        vnl_try(L, vn_attractors_position(points, i, p));
+        lua_createtable(L, dim, 0);
+        for (int k = 0; k < dim; k++) {
             lua_pushnumber(L, p[k]);
             lua_rawseti(L, -2, k + 1);
         }
         lua_rawseti(L, -2, i + 1);
     }
+}
+
+static int domain_sample(lua_State *L) {
+    lua_Integer count = vnl_check_integer(L, 2, "domain:sample n");
+    if (count < 1 || count > 100000000) {
+        return vnl_fail(L, "domain:sample(%lld): from 1 to 100,000,000 points", (long long)count);
+    }
+    vn_attractors_def set = vn_attractors_def_default();
+    vn_throw_def def;
+    int32_t accepted;
+    lua_settop(L, 3);
+    void **box = vnl_push_box(L, &vnl_attractors_class);
+    vnl_read_options(L, 3, &sample_schema, &def);
+    def.domain = vnl_check_domain(L, 1);
+    def.count = (int32_t)count;
+    set.dim = vn_domain_dim(def.domain);
+    vnl_try(L, vn_attractors_create((vn_attractors **)box, &set));
+    vnl_try(L, vn_throw(*box, &def, &accepted));
+    push_points(L, *box, accepted, set.dim);
     return 1;
 }
 
 static int combine(lua_State *L, vn_combination how) {
-    vn_domain *a = vnl_check_domain(L, 1);
-    vn_domain *b = vnl_check_domain(L, 2);
     void **box = vnl_push_box(L, &vnl_domain_class);
+    const vn_domain *a = vnl_check_domain(L, 1);
+    const vn_domain *b = vnl_check_domain(L, 2);
     vnl_try(L, vn_domain_combine((vn_domain **)box, a, b, how));
     return 1;
 }
@@ -282,7 +286,7 @@ static int domain_times(lua_State *L) {
 
 static int domain_field(lua_State *L) {
     const vn_domain *domain = vnl_check(L, 1, &vnl_domain_class);
-    const char *key = luaL_tolstring(L, 2, NULL);
+    const char *key = lua_tostring(L, 2);
     if (strcmp(key, "dim") == 0) {
         lua_pushinteger(L, vn_domain_dim(domain));
         return 1;

@@ -13,9 +13,11 @@ typedef vn_status make_fn(vn_growth **out, const vn_growth_def *def);
 
 static int make(lua_State *L, const vn_schema *schema, make_fn *engine_make) {
     vn_growth_def def;
-    vnl_read_options(L, 1, schema, &def);
-    def.has_origin = vnl_has(L, 1, "origin");
+    lua_settop(L, 1);
     void **box = vnl_push_box(L, &vnl_growth_class);
+    bool has_origin = lua_istable(L, 1) && vnl_has(L, 1, "origin");
+    vnl_read_options(L, 1, schema, &def);
+    def.has_origin = has_origin;
     vnl_try(L, engine_make((vn_growth **)box, &def));
     lua_pushvalue(L, -1);
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.latest.growth"); // what progress is shown of
@@ -50,8 +52,17 @@ static vn_network *first_network(lua_State *L) {
     return NULL;
 }
 
+static void check_handed(lua_State *L) {
+    for (int i = 2; i <= lua_gettop(L); i++) {
+        if (vnl_test(L, i, &vnl_network_class) == NULL && vnl_test(L, i, &vnl_attractors_class) == NULL) {
+            vnl_fail(L, "growth:advance: networks and attractors expected, got %s", luaL_typename(L, i));
+        }
+    }
+}
+
 static int growth_advance(lua_State *L) {
     vn_growth *growth = vnl_check(L, 1, &vnl_growth_class);
+    check_handed(L);
     vn_network *network = first_network(L);
     bool growing = vn_growth_advance(growth);
     for (int i = 2; i <= lua_gettop(L); i++) {
@@ -59,9 +70,6 @@ static int growth_advance(lua_State *L) {
         int32_t released;
         if (attractors != NULL) {
             vnl_try(L, vn_release(attractors, network, &released));
-        } else if (vnl_test(L, i, &vnl_network_class) == NULL) {
-            return vnl_fail(L, "growth:advance: networks and attractors expected, got %s",
-                            luaL_typename(L, i));
         }
     }
     lua_pushboolean(L, growing);
@@ -91,7 +99,7 @@ static const vnl_function methods[] = {
 
 static int growth_field(lua_State *L) {
     const vn_growth *growth = vnl_check(L, 1, &vnl_growth_class);
-    const char *key = luaL_tolstring(L, 2, NULL);
+    const char *key = lua_tostring(L, 2);
     if (strcmp(key, "time") == 0) {
         lua_pushinteger(L, vn_growth_time(growth));
     } else if (strcmp(key, "length") == 0) {

@@ -10,11 +10,11 @@ extern const vnl_function vnl_attractors_functions[];
 extern const vnl_function vnl_canvas_functions[];
 
 static int make_rng(lua_State *L) {
-    lua_Integer seed = luaL_checkinteger(L, 1);
+    lua_Integer seed = vnl_check_integer(L, 1, "rng seed");
     void **box = vnl_push_box(L, &vnl_rng_class);
     vn_rng *rng = vn_resize(NULL, 0, sizeof *rng);
     if (rng == NULL) {
-        vnl_try(L, vn_fail(VN_NO_MEMORY, "out of memory"));
+        vnl_try(L, vn_fail(VN_NO_MEMORY, "out of memory (raise --memory, or make less)"));
         return 0;
     }
     *rng = vn_rng_make((uint64_t)seed);
@@ -43,7 +43,7 @@ static int closest_name(lua_State *L) {
     const char *word = luaL_checkstring(L, 1);
     luaL_checktype(L, 2, LUA_TTABLE);
     int count = 0;
-    for (lua_Integer i = 1; count < MOST_NAMES && lua_geti(L, 2, i) == LUA_TSTRING; i++, lua_pop(L, 1)) {
+    for (lua_Integer i = 1; count < MOST_NAMES && lua_rawgeti(L, 2, i) == LUA_TSTRING; i++, lua_pop(L, 1)) {
         names[count++] = lua_tostring(L, -1); // the table holds it
     }
     lua_pushstring(L, vn_closest_name(word, names, count));
@@ -112,7 +112,7 @@ static const vn_embedded *find_embedded(const char *name) {
 static int load_embedded(lua_State *L) {
     const vn_embedded *module = find_embedded(lua_tostring(L, lua_upvalueindex(1)));
     char chunk[80];
-    strcpy(chunk, "@");
+    strcpy(chunk, "=");
     strncat(chunk, module->name, sizeof chunk - 2);
     if (luaL_loadbufferx(L, (const char *)module->data, module->size, chunk, "t") != LUA_OK) {
         return lua_error(L);

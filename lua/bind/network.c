@@ -14,7 +14,7 @@ static vn_network *check_network(lua_State *L) {
 }
 
 static int32_t check_node(lua_State *L, int index, const vn_network *network, const char *what) {
-    lua_Integer node = luaL_checkinteger(L, index);
+    lua_Integer node = vnl_check_integer(L, index, what);
     if (node < 1 || node > vn_network_count(network)) {
         vnl_fail(L, "%s: node %lld is not one of the %d there are", what, (long long)node,
                  vn_network_count(network));
@@ -22,10 +22,10 @@ static int32_t check_node(lua_State *L, int index, const vn_network *network, co
     return (int32_t)(node - 1);
 }
 
-static void set_law(lua_State *L, int index, vn_network *network) {
+static void set_law(lua_State *L, int options, int index) {
     vn_murray_def def;
-    vnl_read_options(L, index, &vn_murray_schema, &def);
-    vnl_try(L, vn_network_murray(network, &def));
+    vnl_read_options(L, options, &vn_murray_schema, &def);
+    vnl_try(L, vn_network_murray(vnl_check(L, index, &vnl_network_class), &def));
 }
 
 static int make_network(lua_State *L) {
@@ -33,8 +33,8 @@ static int make_network(lua_State *L) {
     vnl_read_options(L, 1, &vn_network_schema, &def);
     void **box = vnl_push_box(L, &vnl_network_class);
     vnl_try(L, vn_network_create((vn_network **)box, &def));
-    if (lua_getfield(L, 1, "murray") != LUA_TNIL) {
-        set_law(L, lua_gettop(L), *box);
+    if (vnl_raw_field(L, 1, "murray") != LUA_TNIL) {
+        set_law(L, lua_gettop(L), lua_gettop(L) - 1);
     }
     lua_pop(L, 1);
     lua_pushvalue(L, -1);
@@ -73,7 +73,7 @@ static int network_join(lua_State *L) {
 }
 
 static int network_murray(lua_State *L) {
-    set_law(L, 2, check_network(L));
+    set_law(L, 2, 1);
     return 0;
 }
 
@@ -160,10 +160,9 @@ static int network_scale(lua_State *L) {
 }
 
 static int network_save(lua_State *L) {
-    vn_network *network = check_network(L);
     const char *path = luaL_checkstring(L, 2);
     const char *manifest = vnl_push_manifest(L);
-    vnl_try(L, vn_network_save(network, path, manifest));
+    vnl_try(L, vn_network_save(check_network(L), path, manifest));
     return 0;
 }
 
@@ -189,11 +188,11 @@ static void remember_stall(lua_State *L, const vn_influence *influence, int32_t 
 }
 
 static int network_extend(lua_State *L) {
-    vn_network *network = check_network(L);
-    vn_influence *influence = vnl_check(L, 2, &vnl_influence_class);
     vn_extend_def def;
     int32_t added, first;
     vnl_read_options(L, 3, &vn_extend_schema, &def);
+    vn_network *network = check_network(L);
+    vn_influence *influence = vnl_check_influence(L, 2);
     vnl_try(L, vn_extend(network, influence, &def, &added, &first));
     remember_stall(L, influence, added);
     lua_pushinteger(L, added);
@@ -282,7 +281,7 @@ static const struct {
 
 static int network_field(lua_State *L) {
     const vn_network *network = check_network(L);
-    const char *key = luaL_tolstring(L, 2, NULL);
+    const char *key = lua_tostring(L, 2);
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         if (strcmp(key, columns[i].name) == 0) {
             vnl_push_view(L, 1, &vnl_network_class, columns[i].read, count_nodes);
@@ -368,19 +367,22 @@ enum { MOST_NETWORKS = 256 };
 
 static int save_networks(lua_State *L) {
     const char *path = luaL_checkstring(L, 1);
-    vn_network *single = vnl_test(L, 2, &vnl_network_class);
     const vn_network *networks[MOST_NETWORKS];
     const char *names[MOST_NETWORKS];
     int32_t count = 0;
-    if (single == NULL) {
-        luaL_checktype(L, 2, LUA_TTABLE);
-        for (lua_pushnil(L); lua_next(L, 2) != 0; lua_pop(L, 1), count++) {
-            if (lua_type(L, -2) != LUA_TSTRING || count == MOST_NETWORKS) {
-                return vnl_fail(L, "save: a table {name = network, …} of at most %d expected", MOST_NETWORKS);
-            }
-            names[count] = lua_tostring(L, -2);
-            networks[count] = vnl_check(L, -1, &vnl_network_class);
+    lua_settop(L, 2);
+    const char *manifest = vnl_push_manifest(L);
+    if (lua_isuserdata(L, 2)) {
+        vnl_try(L, vn_network_save(vnl_check(L, 2, &vnl_network_class), path, manifest));
+        return 0;
+    }
+    luaL_checktype(L, 2, LUA_TTABLE);
+    for (lua_pushnil(L); lua_next(L, 2) != 0; lua_pop(L, 1), count++) {
+        if (lua_type(L, -2) != LUA_TSTRING || count == MOST_NETWORKS) {
+            return vnl_fail(L, "save: a table {name = network, …} of at most %d expected", MOST_NETWORKS);
         }
+        names[count] = lua_tostring(L, -2);
+        networks[count] = vnl_check(L, -1, &vnl_network_class);
     }
     // lua_next() walks in an order of hashes; a file must not.
     for (int32_t i = 1; i < count; i++) {
@@ -393,9 +395,7 @@ static int save_networks(lua_State *L) {
             networks[j - 1] = network;
         }
     }
-    const char *manifest = vnl_push_manifest(L);
-    vnl_try(L, single != NULL ? vn_network_save(single, path, manifest)
-                              : vn_networks_save(networks, names, count, path, manifest));
+    vnl_try(L, vn_networks_save(networks, names, count, path, manifest));
     return 0;
 }
 

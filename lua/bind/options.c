@@ -23,19 +23,39 @@ __attribute__((noreturn)) static void fail_type(lua_State *L, const vn_schema *s
     vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, got, field->doc);
 }
 
-__attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_schema *schema) {
+__attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_schema *schema, const char *key) {
     const char *names[64];
     int count = 0;
     for (; count < schema->count && count < 64; count++) {
         names[count] = schema->fields[count].name;
     }
-    // lua_tostring() would turn a number in place and confuse lua_next(); luaL_tolstring() makes a copy.
-    const char *key = luaL_tolstring(L, -2, NULL);
     const char *closest = vn_closest_name(key, names, count);
     if (closest != NULL) {
         vnl_fail(L, "%s: unknown field \"%s\", did you mean \"%s\"?", schema->name, key, closest);
     }
     vnl_fail(L, "%s: unknown field \"%s\"", schema->name, key);
+}
+
+// Of several unknown fields the first by alphabet is named: lua_next() walks in an order that changes from run to run.
+static void check_names(lua_State *L, int index, const vn_schema *schema) {
+    lua_pushnil(L); // the unknown name found so far
+    int found = lua_gettop(L);
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : NULL;
+        if (key != NULL && vn_find_field(schema, key) != NULL) {
+            continue;
+        }
+        // lua_tostring() would turn a number in place and confuse lua_next(); luaL_tolstring() makes a copy.
+        const char *name = luaL_tolstring(L, -2, NULL);
+        if (lua_isnil(L, found) || strcmp(name, lua_tostring(L, found)) < 0) {
+            lua_copy(L, -1, found);
+        }
+        lua_pop(L, 1);
+    }
+    if (!lua_isnil(L, found)) {
+        fail_unknown_field(L, schema, lua_tostring(L, found));
+    }
+    lua_pop(L, 1);
 }
 
 static void read_number(lua_State *L, const vn_schema *schema, const vn_field *field, void *slot) {
@@ -87,13 +107,13 @@ int vnl_read_point(lua_State *L, int index, const char *what, double p[3]) {
     if (lua_type(L, index) != LUA_TTABLE) {
         vnl_fail(L, "%s: a point {x, y} expected, got %s", what, luaL_typename(L, index));
     }
-    lua_Integer count = luaL_len(L, index);
+    lua_Integer count = (lua_Integer)lua_rawlen(L, index);
     if (count < 2 || count > 3) {
         vnl_fail(L, "%s: a point has 2 or 3 coordinates, not %d", what, (int)count);
     }
     p[2] = 0;
     for (int k = 0; k < count; k++) {
-        lua_geti(L, index, k + 1);
+        lua_rawgeti(L, index, k + 1);
         p[k] = vnl_check_number(L, -1, what);
         lua_pop(L, 1);
     }
@@ -140,8 +160,20 @@ static void read_field(lua_State *L, const vn_schema *schema, const vn_field *fi
     }
 }
 
+// Reading a field makes strings, which may run a script's finalisers, which may close what was read before. This pass
+// allocates nothing: the objects it finds are open when it returns.
+static void renew_objects(lua_State *L, int index, const vn_schema *schema, void *def) {
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        const vn_field *field = vn_find_field(schema, lua_tostring(L, -2)); // every key is a known name by now
+        if (field != NULL && field->type == VN_OBJECT) {
+            read_object(L, schema, field, (char *)def + field->offset);
+        }
+    }
+}
+
 void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def) {
     index = lua_absindex(L, index);
+    luaL_checkstack(L, 16, "options");
     memcpy(def, schema->defaults, schema->size);
     if (lua_isnoneornil(L, index)) {
         lua_settop(L, index > lua_gettop(L) ? index : lua_gettop(L));
@@ -151,13 +183,12 @@ void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *de
     if (!lua_istable(L, index)) {
         vnl_fail(L, "%s: a table of options {…} expected, got %s", schema->name, luaL_typename(L, index));
     }
-    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
-        const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : NULL;
-        const vn_field *field = key != NULL ? vn_find_field(schema, key) : NULL;
-        if (field == NULL) {
-            fail_unknown_field(L, schema);
+    check_names(L, index, schema);
+    for (int i = 0; i < schema->count; i++) {
+        if (vnl_raw_field(L, index, schema->fields[i].name) != LUA_TNIL) {
+            read_field(L, schema, &schema->fields[i], def);
         }
-        read_field(L, schema, field, def);
+        lua_pop(L, 1);
     }
     for (int i = 0; i < schema->count; i++) {
         const vn_field *field = &schema->fields[i];
@@ -165,12 +196,27 @@ void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *de
             vnl_fail(L, "%s: `%s` is missing: %s", schema->name, field->name, field->doc);
         }
     }
+    renew_objects(L, index, schema, def);
 }
 
 bool vnl_has(lua_State *L, int index, const char *field) {
-    bool has = lua_getfield(L, index, field) != LUA_TNIL;
+    bool has = vnl_raw_field(L, index, field) != LUA_TNIL;
     lua_pop(L, 1);
     return has;
+}
+
+int vnl_raw_field(lua_State *L, int index, const char *field) {
+    index = lua_absindex(L, index);
+    lua_pushstring(L, field);
+    return lua_rawget(L, index);
+}
+
+lua_Integer vnl_check_integer(lua_State *L, int index, const char *what) {
+    if (!lua_isinteger(L, index)) {
+        double value = vnl_check_number(L, index, what);
+        vnl_fail(L, "%s: whole number expected, got %g", what, value);
+    }
+    return lua_tointeger(L, index);
 }
 
 double vnl_check_number(lua_State *L, int index, const char *what) {

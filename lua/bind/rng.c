@@ -32,8 +32,8 @@ static int rng_normal(lua_State *L) {
 
 static int rng_integer(lua_State *L) {
     vn_rng *rng = check_rng(L);
-    lua_Integer low = luaL_checkinteger(L, 2);
-    lua_Integer high = luaL_checkinteger(L, 3);
+    lua_Integer low = vnl_check_integer(L, 2, "rng:integer low");
+    lua_Integer high = vnl_check_integer(L, 3, "rng:integer high");
     if (low > high) {
         return vnl_fail(L, "rng:integer(%lld, %lld): the first must not be above the second", (long long)low,
                         (long long)high);
