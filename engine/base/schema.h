@@ -46,7 +46,7 @@ typedef struct vn_schema {
 
 #define VN_HUGE 1e300
 
-/// Check one number against its row: "throw.spacing = -1 must be 0 or more (length): …".
+/// Check one number against its row: "throw.spacing = -1 must be above 0 length: …".
 vn_status vn_check_number(const vn_schema *schema, const vn_field *field, double value);
 
 /// Check every number of @p def. What is optional and still at its default passes.

@@ -6,7 +6,9 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -47,9 +49,11 @@ static char *part_name(const char *path) {
 
 // A file without a name where the file system has such, else one named `part`.
 static int open_part(vn_sink *sink, const char *folder) {
-    int fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (fd < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
-        fd = open(sink->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    bool can_name_later = access("/proc/self/fd", X_OK) == 0;
+    int fd = can_name_later ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    if (fd < 0 && (!can_name_later || errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+        unlink(sink->part); // of a process of this number that was killed
+        fd = open(sink->part, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         sink->named = fd >= 0;
     }
     return fd;
@@ -66,6 +70,8 @@ static vn_status sink_begin(vn_sink *sink, const char *path) {
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
         return vn_fail(VN_IO, "%s: is a folder; give the name of a file in it", path);
     }
+    char target[PATH_MAX];
+    path = realpath(path, target) != NULL ? target : path; // what a link points at is written, the link stays
     sink->path = vn_copy_text(path);
     sink->part = part_name(path);
     char *folder = folder_of(path);
@@ -77,6 +83,13 @@ static vn_status sink_begin(vn_sink *sink, const char *path) {
     int error = errno;
     vn_free_text(folder);
     sink->file = fd >= 0 ? fdopen(fd, "wb") : NULL;
+    if (sink->file == NULL && fd >= 0) {
+        error = errno;
+        close(fd);
+        if (sink->named) {
+            unlink(sink->part);
+        }
+    }
     return sink->file != NULL ? VN_OK : fail_open(path, error);
 }
 

@@ -46,5 +46,6 @@ int vn_exit_status(vn_status status) {
 
 vn_status(vn_fail_memory)(const char *what, size_t bytes) {
     return vn_fail(VN_NO_MEMORY, "out of memory: %s needs %.3g %s more (raise --memory, or grow less)", what,
-                   bytes < 1000000 ? (double)bytes / 1e3 : (double)bytes / 1e6, bytes < 1000000 ? "kB" : "MB");
+                   bytes < 1000000 ? (double)bytes / 1e3 : (double)bytes / 1e6,
+                   bytes < 1000000 ? "kB" : "MB");
 }

@@ -123,7 +123,8 @@ typedef struct sight {
     vn_nearest *query;
 } sight;
 
-// How many near nodes an attractor asks in passing, and how many all that wait may ask together at the last chance.
+// How many near nodes an attractor asks in passing, and how many all that wait may ask together at the last
+// chance.
 enum { GLANCE = 64, LAST_LOOKS = 1 << 21 };
 
 static bool sees_and_may_grow(int32_t node, void *payload) {
@@ -236,8 +237,8 @@ static bool still_grows(const vn_domain *domain) {
     return domain->kind->margin != NULL && !domain->kind->margin->is_grown(domain);
 }
 
-// Seldom while veins grow elsewhere, and thoroughly when nothing else does. What even then no node sees is retired, unless
-// the margin still moves.
+// Seldom while veins grow elsewhere, and thoroughly when nothing else does. What even then no node sees is
+// retired, unless the margin still moves.
 static vn_status mind_waiting(const extension *e, int32_t first) {
     vn_attractors *a = e->a;
     bool grew = e->network->x.count > first;
@@ -267,7 +268,8 @@ static void lose_patience(const extension *e) {
             continue;
         }
         if (distance < (double)a->best.data[i] - 1e-3 * e->def->length) {
-            bool counted = isfinite(a->best.data[i]); // else it only starts to count: its patience is not renewed
+            bool counted =
+                isfinite(a->best.data[i]); // else it only starts to count: its patience is not renewed
             a->best.data[i] = (float)distance;
             a->idle.data[i] &= counted ? VN_HIDDEN | VN_TURNS : 0xFF;
         } else if ((++a->idle.data[i] & VN_IDLE) > PATIENCE) {

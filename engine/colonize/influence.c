@@ -19,8 +19,8 @@ vn_influence_def vn_influence_def_default(void) {
     return influence_default;
 }
 
-// Drop what is gone, and what is listed as newly active although it is in the list: an attractor that lost its node and got
-// another one within the same step.
+// Drop what is gone, and what is listed as newly active although it is in the list: an attractor that lost
+// its node and got another one within the same step.
 static int32_t drop_idle(vn_attractors *a) {
     int32_t kept = 0;
     for (int32_t k = 0; k < a->active.count; k++) {

@@ -11,7 +11,8 @@ static void forget(vn_attractors *a, const vn_network *network, double reach2) {
         if (!vn_is_gone(a, i)) {
             a->near2.data[i] = reach2;
             a->node.data[i] = -1;
-            a->idle.data[i] &= (uint8_t)~VN_HIDDEN; // its patience stays: no set lives for ever by changing networks
+            a->idle.data[i] &=
+                (uint8_t)~VN_HIDDEN; // its patience stays: no set lives for ever by changing networks
             a->best.data[i] = moved ? INFINITY : a->best.data[i];
         }
     }

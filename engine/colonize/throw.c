@@ -260,7 +260,8 @@ vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
         return VN_OK;
     }
     if (a->margin_clearance > 0 && network == NULL) {
-        return vn_fail(VN_INVALID, "these attractors are to keep clear of a network: hand it over beside them");
+        return vn_fail(VN_INVALID,
+                       "these attractors are to keep clear of a network: hand it over beside them");
     }
     const vn_point_grid *grid;
     double length = a->margin->kind->margin->length(a->margin);
@@ -301,8 +302,9 @@ static vn_status throw_or_release(vn_attractors *a, const vn_throw_def *def, int
     VN_TRY(check_throw(a, def));
     if (def->domain->kind->margin != NULL) {
         if (a->margin != def->domain && a->dormant.count > 0) {
-            return vn_fail(VN_INVALID, "throw: %d of these attractors wait for the margin of another blade: use one set "
-                                       "for each blade",
+            return vn_fail(VN_INVALID,
+                           "throw: %d of these attractors wait for the margin of another blade: use one set "
+                           "for each blade",
                            a->dormant.count);
         }
         if (a->margin != def->domain) {
@@ -312,10 +314,10 @@ static vn_status throw_or_release(vn_attractors *a, const vn_throw_def *def, int
     }
     int64_t darts;
     int32_t first = a->x.count;
+    vn_box bounds = vn_domain_bounds(def->domain); // of today, where it grows
     VN_TRY(count_darts(a, def, vn_domain_measure(def->domain), &darts));
     VN_TRY(throw_darts(a, def, darts, accepted));
     if (*accepted >= 1024) {
-        vn_box bounds = vn_domain_bounds(def->domain);
         VN_TRY(lay_along_curve(a, first, &bounds));
     }
     return VN_OK;

@@ -4,7 +4,11 @@ typedef struct combination {
     vn_domain base;
     vn_domain *a, *b;
     vn_combination how;
+    double length; ///< of the growing operands when bounds and measure were taken
 } combination;
+
+// What changes when a growing operand has grown; 0 where nothing grows.
+static double length_of(const vn_domain *domain);
 
 static void combination_destroy(vn_domain *domain) {
     combination *c = (combination *)domain;
@@ -62,11 +66,34 @@ static vn_status combination_outline(const vn_domain *domain, int32_t sides, vn_
     return status;
 }
 
+static double today(const combination *c) {
+    return length_of(c->a) + length_of(c->b);
+}
+
+// After a growing operand has grown. A failure, for want of memory, leaves them as they were, and is tried
+// again.
+static void combination_refresh(vn_domain *domain) {
+    combination *c = (combination *)domain;
+    double length = today(c);
+    if (domain->dim == 2 && length != c->length && vn_domain_measure_outline(domain) == VN_OK) {
+        c->length = length;
+    }
+}
+
 static const vn_domain_kind flat_kind = {.name = "combination",
                                          .destroy = combination_destroy,
                                          .contains = combination_contains,
                                          .closest = combination_closest,
-                                         .outline = combination_outline};
+                                         .outline = combination_outline,
+                                         .refresh = combination_refresh};
+
+static double length_of(const vn_domain *domain) {
+    if (domain->kind == &flat_kind) {
+        return today((const combination *)domain);
+    }
+    return domain->kind->margin != NULL ? domain->kind->margin->length(domain) : 0;
+}
+
 static const vn_domain_kind solid_kind = {.name = "combination",
                                           .destroy = combination_destroy,
                                           .contains = combination_contains,
@@ -119,6 +146,7 @@ static vn_status combine_kept(vn_domain **out, const vn_domain *a, const vn_doma
     c->a = vn_domain_retain(a);
     c->b = vn_domain_retain(b);
     c->how = how;
+    c->length = today(c);
     memcpy(c->base.unit, a->unit, sizeof c->base.unit);
     vn_status status = VN_OK;
     if (a->dim == 2) {
@@ -155,9 +183,6 @@ vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain
     if (a->dim != b->dim) {
         return vn_fail(VN_INVALID, "a domain of %d dimensions cannot be combined with one of %d", a->dim,
                        b->dim);
-    }
-    if (a->kind->margin != NULL || b->kind->margin != NULL) {
-        return vn_fail(VN_INVALID, "a growing domain cannot be combined: combine the shapes first, then let them grow");
     }
     bool exact = a->polygonal && b->polygonal;
     return exact ? combine_polygons(out, a, b, how) : combine_kept(out, a, b, how);

@@ -36,11 +36,19 @@ const char *vn_domain_unit(const vn_domain *domain) {
     return domain->unit;
 }
 
+static void refresh(const vn_domain *domain) {
+    if (domain->kind->refresh != NULL) {
+        domain->kind->refresh((vn_domain *)domain); // bounds and measure of a moving shape are a cache
+    }
+}
+
 vn_box vn_domain_bounds(const vn_domain *domain) {
+    refresh(domain);
     return domain->bounds;
 }
 
 double vn_domain_measure(const vn_domain *domain) {
+    refresh(domain);
     return domain->measure;
 }
 
@@ -140,11 +148,14 @@ vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *ou
 vn_status vn_domain_measure_outline(vn_domain *domain) {
     vn_rings rings = {0};
     vn_status status = vn_domain_outline(domain, VN_FINE_SIDES, &rings);
-    domain->measure = 0;
+    double area = 0;
     for (int32_t i = 0; status == VN_OK && i < rings.ends.count; i++) {
-        domain->measure += vn_rings_area_of(&rings, i);
+        area += vn_rings_area_of(&rings, i);
     }
-    domain->bounds = vn_rings_bounds(&rings);
+    if (status == VN_OK) {
+        domain->measure = area;
+        domain->bounds = vn_rings_bounds(&rings);
+    }
     vn_rings_free(&rings);
     return status;
 }

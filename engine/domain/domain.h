@@ -16,7 +16,7 @@ extern const vn_schema vn_profile_schema;
 typedef struct vn_margin {
     /// The length at which the margin passes @p p; INFINITY when it never does.
     double (*arrival)(const vn_domain *domain, const double p[3]);
-    double (*length)(const vn_domain *domain);                               ///< today's
+    double (*length)(const vn_domain *domain); ///< today's
     bool (*is_grown)(const vn_domain *domain);
     void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
 } vn_margin;
@@ -33,6 +33,8 @@ typedef struct vn_domain_kind {
     /// NULL where there are no flat outlines.
     vn_status (*outline)(const vn_domain *domain, int32_t sides, vn_rings *out);
     const vn_margin *margin; ///< NULL: it does not move
+    /// Bring bounds and measure up to date with what it is made of; NULL: they are always.
+    void (*refresh)(vn_domain *domain);
 } vn_domain_kind;
 
 /// The head of every kind's own structure.

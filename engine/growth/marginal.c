@@ -106,7 +106,8 @@ static bool marginal_is_grown(const vn_domain *domain) {
     return growth_of(domain)->length >= growth_of(domain)->to;
 }
 
-static const vn_margin marginal_margin = {marginal_arrival, marginal_length, marginal_is_grown, marginal_grown};
+static const vn_margin marginal_margin = {marginal_arrival, marginal_length, marginal_is_grown,
+                                          marginal_grown};
 
 static const vn_domain_kind marginal_kind = {.name = "blade",
                                              .destroy = vn_growth_destroy,

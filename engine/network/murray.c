@@ -33,7 +33,8 @@ void vn_network_count_tips(const vn_network *network, int32_t *tips) {
     }
 }
 
-// Tell those above each pending node; false when that takes longer than counting all anew. Counts are then in between.
+// Tell those above each pending node; false when that takes longer than counting all anew. Counts are then in
+// between.
 static bool climb(vn_network *network) {
     int64_t steps = 0;
     for (int32_t i = 0; i < network->pending.count; i++) {
@@ -50,7 +51,8 @@ static bool climb(vn_network *network) {
 }
 
 void vn_network_settle(const vn_network *constant) {
-    vn_network *network = (vn_network *)constant; // the counts are a cache: their value was settled by the growth
+    vn_network *network =
+        (vn_network *)constant; // the counts are a cache: their value was settled by the growth
     if (network->recount || !climb(network)) {
         vn_network_count_tips(network, network->tips.data);
     }

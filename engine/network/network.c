@@ -344,7 +344,8 @@ vn_status vn_network_scale(vn_network *network, double factor) {
         return vn_fail(VN_INVALID, "network.scale: the factor %g must be above 0", factor);
     }
     if (!(largest_number(network) * factor <= VN_HUGE)) {
-        return vn_fail(VN_INVALID, "network.scale: the factor %g takes coordinates beyond %g", factor, VN_HUGE);
+        return vn_fail(VN_INVALID, "network.scale: the factor %g takes coordinates beyond %g", factor,
+                       VN_HUGE);
     }
     for (int32_t i = 0; i < network->x.count; i++) {
         network->x.data[i] *= factor;

@@ -38,7 +38,7 @@ typedef struct vn_nearest {
     uint64_t seed, id; ///< in: of equally near points, that of the least vn_hash(seed, id, point, 0) is taken
     vn_point_accept_fn *accept; ///< in: may be NULL
     void *payload;
-    bool stop;                  ///< set by `accept` to end the search with what was found so far
+    bool stop; ///< set by `accept` to end the search with what was found so far
 } vn_nearest;
 void vn_point_grid_nearest(const vn_point_grid *grid, const vn_points *points, const double p[3],
                            vn_nearest *query);

@@ -68,8 +68,9 @@ VN_API vn_influence_def vn_influence_def_default(void);
 
 /// Which attractors influence which nodes: pairs sorted by attractor, then node.
 typedef struct vn_influence vn_influence;
-/// Find them. Equally near nodes are ranked by a hash of (seed, attractor, node). The result is good until
-/// the attractors or the network change; a later call may reuse @p *out, which is NULL at first.
+/// Find them. Equally near nodes are ranked by a hash of (seed, attractor, node): the step is
+/// left out of READINGS R3's key, so that a rank does not depend on when it is asked for. The result is good
+/// until the attractors or the network change; a later call may reuse @p *out, which is NULL at first.
 VN_API vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
                                    const vn_influence_def *def);
 VN_API void vn_influence_destroy(vn_influence *influence);

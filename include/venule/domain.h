@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-/// Shared and immutable: many may hold one. Points are double[3] throughout; a 2D domain ignores the third.
+/// Shared: many may hold one. Only a growth changes. Points are double[3] throughout; a 2D domain ignores the
+/// third.
 typedef struct vn_domain vn_domain;
 
 /// An axis-parallel box. In 2D the third components are 0.
@@ -61,8 +62,8 @@ VN_API vn_status vn_domain_profile(vn_domain **out, const vn_profile_def *def);
 typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_combination;
 /// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every
 /// answer. Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere
-/// it is never more than the true distance. VN_INVALID when the dimensions differ; VN_INFEASIBLE when nothing
-/// is left.
+/// it is never more than the true distance. Of a growing operand, it is always today's shape. VN_INVALID when
+/// the dimensions differ; VN_INFEASIBLE when nothing is left.
 VN_API vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b,
                                    vn_combination how);
 

@@ -81,8 +81,8 @@ vn_status vnl_status_of(lua_State *L, const char *message);
 /// types and ranges checked, required fields demanded. VN_MIXED fields are left to the caller. Text stays
 /// valid while the table lives.
 void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *def);
-// Options are read raw, and everything that may run Lua (callbacks, the manifest, an allocation that collects garbage) comes
-// before the objects are fetched by vnl_check(): whatever Lua runs may close them.
+// Options are read raw, and everything that may run Lua (callbacks, the manifest, an allocation that collects
+// garbage) comes before the objects are fetched by vnl_check(): whatever Lua runs may close them.
 
 /// Push a field of the table at @p index without asking its metatable; returns its type.
 int vnl_raw_field(lua_State *L, int index, const char *field);

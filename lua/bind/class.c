@@ -7,8 +7,8 @@
 
 static const char *const STATUS_KEY = "venule.status";
 
-// The metatable stands in the registry under the class's address. Looking it up allocates nothing, so that no garbage
-// collection, and no finaliser of a script's, can run between the check of an object and its use.
+// The metatable stands in the registry under the class's address. Looking it up allocates nothing, so that no
+// garbage collection, and no finaliser of a script's, can run between the check of an object and its use.
 static void **box_at(lua_State *L, int index, const vnl_class *class) {
     void **box = lua_touserdata(L, index);
     if (box == NULL || !lua_getmetatable(L, index)) {
@@ -87,6 +87,10 @@ void vnl_try(lua_State *L, vn_status status) {
     lua_setfield(L, LUA_REGISTRYINDEX, STATUS_KEY);
     lua_pushvalue(L, -1);
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.message");
+    if (status == VN_INTERRUPTED) { // the host's hook sees to it that no pcall() outlives this
+        lua_pushvalue(L, -1);
+        lua_setfield(L, LUA_REGISTRYINDEX, "venule.stopped");
+    }
     lua_error(L);
 }
 

@@ -23,7 +23,8 @@ __attribute__((noreturn)) static void fail_type(lua_State *L, const vn_schema *s
     vnl_fail(L, "%s.%s: %s expected, got %s (%s)", schema->name, field->name, wanted, got, field->doc);
 }
 
-__attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_schema *schema, const char *key) {
+__attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_schema *schema,
+                                                         const char *key) {
     const char *names[64];
     int count = 0;
     for (; count < schema->count && count < 64; count++) {
@@ -36,7 +37,8 @@ __attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_
     vnl_fail(L, "%s: unknown field \"%s\"", schema->name, key);
 }
 
-// Of several unknown fields the first by alphabet is named: lua_next() walks in an order that changes from run to run.
+// Of several unknown fields the first by alphabet is named: lua_next() walks in an order that changes from
+// run to run.
 static void check_names(lua_State *L, int index, const vn_schema *schema) {
     lua_pushnil(L); // the unknown name found so far
     int found = lua_gettop(L);
@@ -160,11 +162,12 @@ static void read_field(lua_State *L, const vn_schema *schema, const vn_field *fi
     }
 }
 
-// Reading a field makes strings, which may run a script's finalisers, which may close what was read before. This pass
-// allocates nothing: the objects it finds are open when it returns.
+// Reading a field makes strings, which may run a script's finalisers, which may close what was read before.
+// This pass allocates nothing: the objects it finds are open when it returns.
 static void renew_objects(lua_State *L, int index, const vn_schema *schema, void *def) {
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
-        const vn_field *field = vn_find_field(schema, lua_tostring(L, -2)); // every key is a known name by now
+        const vn_field *field =
+            vn_find_field(schema, lua_tostring(L, -2)); // every key is a known name by now
         if (field != NULL && field->type == VN_OBJECT) {
             read_object(L, schema, field, (char *)def + field->offset);
         }

@@ -1,5 +1,6 @@
 #include "host/host.h"
 
+#include "base/text.h"
 #include "venule/output.h"
 
 #include <stdio.h>
@@ -36,11 +37,17 @@ static vn_status print_json(const vn_network *network, const char *name) {
     if (status != VN_OK) {
         return status;
     }
-    printf("{\"name\": \"%s\", \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": "
+    vn_text quoted = {0};
+    status = vn_text_json(&quoted, name);
+    if (status != VN_OK) {
+        return status;
+    }
+    printf("{\"name\": %s, \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": "
            "%d, \"joins\": %d, "
            "\"depth\": %d, \"length\": %.17g, \"min_radius\": %.17g, \"max_radius\": %.17g}\n",
-           name, vn_network_dim(network), m.nodes, m.roots, m.tips, m.bifurcations, m.joins, m.depth,
+           quoted.data, vn_network_dim(network), m.nodes, m.roots, m.tips, m.bifurcations, m.joins, m.depth,
            m.length, m.min_radius, m.max_radius);
+    vn_array_free(&quoted);
     return VN_OK;
 }
 

@@ -46,9 +46,19 @@ static void push_sha256(lua_State *L, const char *bytes, size_t count) {
     lua_pushlstring(L, text, 2 * SHA256_DIGEST_SIZE);
 }
 
-static int exit_usage(lua_State *L) {
-    lua_pushinteger(L, VN_EXIT_USAGE);
+// The exit status that goes with the message on top of the stack. A script may swallow the error with
+// pcall(): then another message ends the run, and its own status counts.
+static void remember_exit(lua_State *L, int status) {
+    lua_pushvalue(L, -1);
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.exit.message");
+    lua_pushinteger(L, status);
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.exit");
+}
+
+static int exit_usage(lua_State *L) {
+    luaL_checkstring(L, 1);
+    lua_settop(L, 1);
+    remember_exit(L, VN_EXIT_USAGE);
     return lua_error(L);
 }
 
@@ -88,9 +98,9 @@ static int show_help(lua_State *L) {
     for (lua_Integer i = 1; lua_geti(L, 1, i) == LUA_TTABLE; i++, lua_settop(L, 1)) {
         show_row(L);
     }
-    lua_pushinteger(L, 0);
-    lua_setfield(L, LUA_REGISTRYINDEX, "venule.exit");
-    return luaL_error(L, "help was shown");
+    lua_pushliteral(L, "help was shown");
+    remember_exit(L, 0);
+    return lua_error(L);
 }
 
 static void read_sets(lua_State *L, const run_options *options) {
@@ -210,20 +220,38 @@ static int run_protected(lua_State *L) {
     return 0;
 }
 
-static int exit_of(lua_State *L, int code, const char *message) {
+static int remembered_exit(lua_State *L, const char *message) {
+    lua_getfield(L, LUA_REGISTRYINDEX, "venule.exit.message");
     lua_getfield(L, LUA_REGISTRYINDEX, "venule.exit");
-    int status = lua_isinteger(L, -1) ? (int)lua_tointeger(L, -1) : -1;
-    lua_pop(L, 1);
+    const char *last = lua_tostring(L, -2);
+    int status = last != NULL && strcmp(last, message) == 0 ? (int)lua_tointeger(L, -1) : -1;
+    lua_pop(L, 2);
+    return status;
+}
+
+static int exit_of(lua_State *L, int code, const char *message) {
+    int status = remembered_exit(L, message);
     if (status >= 0) {
         return status;
     }
     return code == LUA_ERRMEM ? vn_exit_status(VN_NO_MEMORY) : vn_exit_status(vnl_status_of(L, message));
 }
 
+// The message of the error on top. Metamethods are not asked: they are the script's, and nothing protects us
+// here.
+static const char *message_of(lua_State *L, char *text, size_t size) {
+    if (lua_type(L, -1) == LUA_TSTRING) {
+        return lua_tostring(L, -1);
+    }
+    snprintf(text, size, "the script raised a %s, not a message", luaL_typename(L, -1));
+    return text;
+}
+
 static int report(lua_State *L, int code, run_options *options) {
+    char text[80];
     vn_set_memory_budget(0); // what is left of memory must do for the message
     progress_clear(options);
-    const char *message = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : luaL_tolstring(L, -1, NULL);
+    const char *message = message_of(L, text, sizeof text);
     int status = exit_of(L, code, message);
     if (status == 130) {
         fprintf(stderr, "venule: interrupted; what was not written yet is lost\n");
@@ -232,6 +260,7 @@ static int report(lua_State *L, int code, run_options *options) {
     } else if (status != 0) {
         fprintf(stderr, "venule: %s\n", message);
     }
+    vn_set_memory_budget(options->memory);
     return status;
 }
 
@@ -246,9 +275,8 @@ static int run_script(run_options *options) {
     int code = lua_pcall(L, 1, 0, 0);
     int status = code == LUA_OK ? 0 : report(L, code, options);
     progress_clear(options);
-    lua_sethook(L, NULL, 0, 0);
+    lua_close(L); // finalisers are the script's too: the limits hold until they are done
     limits_disarm();
-    lua_close(L);
     return status;
 }
 

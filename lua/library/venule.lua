@@ -149,7 +149,7 @@ local Venation = {}
 function Venation:step() end
 
 ---Grow to the end.
----@param options? {progress?: fun(system: venule.Venation)}
+---@param options? {progress?: boolean|fun(system: venule.Venation)}
 ---@return venule.Venation
 function Venation:run(options) end
 

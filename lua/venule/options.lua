@@ -58,8 +58,11 @@ function options.read(name, rows, given, level)
     known[row[1]] = row
     read[row[1]] = row[2]
   end
-  for key, value in pairs(given) do
-    local row = known[key]
+  local keys = {}
+  for key in pairs(given) do keys[#keys + 1] = key end
+  table.sort(keys, function(a, b) return tostring(a) < tostring(b) end) -- pairs() walks in an order of its own
+  for _, key in ipairs(keys) do
+    local value, row = given[key], known[key]
     if not row then
       error(('%s: unknown field "%s"%s'):format(name, tostring(key), options.suggestion(tostring(key), names_of(rows))), level)
     end

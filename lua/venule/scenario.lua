@@ -165,13 +165,19 @@ local result_rows = {
   {"unit", nil, type = "string", doc = "length unit of the view"},
 }
 
+-- The networks as a list, by name: what pairs() gives comes in another order in every run.
 local function networks_of(r)
-  return r.networks or r.network and {r.network} or {}
+  if not r.networks then return r.network and {r.network} or {} end
+  local names, list = {}, {}
+  for name in pairs(r.networks) do names[#names + 1] = name end
+  table.sort(names, function(a, b) return tostring(a) < tostring(b) end)
+  for i, name in ipairs(names) do list[i] = r.networks[name] end
+  return list
 end
 
 local function extent_of(networks)
   local min, max
-  for _, network in pairs(networks) do
+  for _, network in ipairs(networks) do
     local extent = network:measure().extent
     min = min and {math.min(min[1], extent.min[1]), math.min(min[2], extent.min[2])} or extent.min
     max = max and {math.max(max[1], extent.max[1]), math.max(max[2], extent.max[2])} or extent.max
@@ -187,7 +193,7 @@ local function draw(r)
   if r.picture then
     r.picture(canvas)
   else
-    for _, network in pairs(networks_of(r)) do canvas:stroke(network) end
+    for _, network in ipairs(networks_of(r)) do canvas:stroke(network) end
   end
   return canvas
 end
@@ -211,10 +217,10 @@ for _, path in ipairs(host.outputs) do
 end
 
 local function check_networks(r)
-  for name, network in pairs(networks_of(r)) do
+  for _, network in ipairs(networks_of(r)) do
     local class = type(network) == "userdata" and getmetatable(network).__name or type(network)
     if class ~= "venule.network" then
-      error(("result.%s: a network expected, got %s"):format(r.networks and "networks." .. tostring(name) or "network", class), 3)
+      error(("result.%s: networks expected, got %s"):format(r.networks and "networks" or "network", class), 3)
     end
   end
 end
@@ -230,7 +236,7 @@ end
 
 local function summary(r)
   local total = {nodes = 0, tips = 0, length = 0}
-  for _, network in pairs(networks_of(r)) do
+  for _, network in ipairs(networks_of(r)) do
     local measures = network:measure()
     for key in pairs(total) do total[key] = total[key] + measures[key] end
   end

@@ -41,6 +41,9 @@ local function venation(given)
   local o = options.read("venation", rows, given, 2)
   o.vein_distance = o.vein_distance or o.birth_distance
   local blade = as_growth(o.domain)
+  if not o.birth_distance and blade.length >= blade.final_length then
+    error("venation: `birth_distance` is missing: on a blade that stays, sources would never cease to appear without it", 2)
+  end
   return setmetatable({
     options = o,
     blade = blade,
@@ -58,7 +61,8 @@ function Venation:vein_step()
   return added
 end
 
--- Where darts go on for ever, the leaf is done after fifty steps without an accepted one.
+-- Where darts go on for ever, the leaf is done after fifty steps without an accepted one; where less than one dart falls in a
+-- step, after as many steps as fifty darts take.
 local PATIENCE = 50
 
 function Venation:is_done(growing, added, accepted)
@@ -66,7 +70,8 @@ function Venation:is_done(growing, added, accepted)
   if self.options.stop == "grown" then return true end
   self.idle = (added > 0 or accepted > 0) and 0 or self.idle + 1
   if self.blade.final_length > self.start_length then return #self.attractors == 0 or self.idle > 0 end
-  return self.idle >= PATIENCE
+  local darts_a_step = self.options.darts * self.blade:measure()
+  return self.idle >= PATIENCE * math.max(1, 1 / darts_a_step)
 end
 
 --- Grow by one step: blade, sources, then vein_steps times the veins. False when done.
@@ -101,9 +106,9 @@ function Venation:report()
   end
 end
 
---- Grow to the end. `progress` (a function) is called after every step.
+--- Grow to the end. Progress shows on a terminal; a function given as `progress` is called after every step.
 function Venation:run(given)
-  local o = options.read("run", {{"progress", nil, type = "any", doc = "function(system) called after every step"}}, given or {}, 2)
+  local o = options.read("run", {{"progress", nil, type = "any", doc = "true, or function(system) called after every step"}}, given or {}, 2)
   repeat
     local more = self:step()
     if type(o.progress) == "function" then o.progress(self) end

@@ -210,7 +210,7 @@ function testAStaleInfluenceIsRefused()
   fails(function() f:pairs() end, STALE)
   local ok, err = pcall(net.extend, net, f, {length = 0.5})
   lu.assertFalse(ok)
-  lu.assertStrContains(err, "extend: the influence is out of date")
+  lu.assertStrContains(err, "this influence is out of date")
   f = auxin:influence(net)
   f:pairs()
   auxin:add(9, 9)
@@ -449,6 +449,15 @@ function testAGrowthIsADomain()
   lu.assertEquals(#blade:sample(20, {rng = venule.rng(1)}), 20)
   local growing = growth.marginal {domain = notched(), from = 50, to = 100}
   lu.assertAlmostEquals((growing + growing):measure(), growing:measure(), 1e-6)
+  local cut = growing - domain.disk {center = {0, 40}, radius = 5}
+  repeat
+    lu.assertTrue(cut:measure() <= growing:measure() * (1 + 1e-9))
+    lu.assertTrue(growing:measure() - cut:measure() <= math.pi * 25 * (1 + 1e-4))
+    for k = 1, 2 do
+      lu.assertAlmostEquals(cut:bounds().max[k], growing:bounds().max[k], 1e-6)
+    end
+  until not growing:advance()
+  lu.assertAlmostEquals(growing:measure() - cut:measure(), math.pi * 25, 1e-2)
 end
 
 function testCombinationsOutliveTheirParts()

@@ -454,7 +454,7 @@ function testArguments()
   fails(function() rng():uniform("0", 1) end, "rng:uniform low: number expected, got string")
   fails(function() rng():normal(0, -1) end, "rng:normal: a standard deviation of -1 must be 0 or more")
   fails(function() rng():integer(2, 1) end, "rng:integer(2, 1): the first must not be above the second")
-  fails(function() venule.rng(1.5) end, "bad argument #1 to 'rng' (number has no integer representation)")
+  fails(function() venule.rng(1.5) end, "rng seed: whole number expected, got 1.5")
   fails(function() venule.attractors {}:add(NAN, 0) end, "an attractor at (nan, 0, 0) is not finite")
   fails(function() growth.none {domain = disk()}:advance(rng()) end, "growth:advance: networks and attractors expected, got userdata")
 end
@@ -543,7 +543,7 @@ end
 -- The reader of what is written in Lua says the same words.
 
 local function venation(field, value)
-  local o = {domain = disk(), rng = rng(), darts = 1}
+  local o = {domain = disk(), rng = rng(), darts = 1, birth_distance = 1}
   if field then o[field] = value end
   return o
 end
@@ -576,6 +576,9 @@ function testVenation()
   fails(function() venule.venation(venation("stop", 1)) end, "venation.stop: string expected, got number: end when every source is reached, or as soon as the blade is grown")
   fails(function() venule.venation(venation("roots", 1)) end, "venation.roots: table expected, got number: seed points {{x, y}, …}; left out: the lowest point of the blade")
   fails(function() venule.venation(venation("domain", 1)) end, "venation.domain: userdata expected, got number: a blade that grows (venule.growth), or a domain that stays")
+  local without = venation()
+  without.birth_distance = nil
+  fails(function() venule.venation(without) end, "venation: `birth_distance` is missing: on a blade that stays, sources would never cease to appear without it")
   fails(function() venule.venation(venation("murray", {exponent = 0})) end, "murray.exponent = 0 must be above 0: n in r_parent^n = Σ r_child^n: 3 by Murray, 2 in most of Runions' leaves")
 end
 
