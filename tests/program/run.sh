@@ -329,7 +329,7 @@ EOF
 script root_outside <<'EOF'
 local venule = require "venule"
 local disk = venule.domain.disk {}
-local s = venule.venation {domain = disk, rng = venule.rng(1), darts = 1, roots = {{3, 0}}}
+local s = venule.venation {domain = disk, rng = venule.rng(1), darts = 1, birth_distance = 0.1, roots = {{3, 0}}}
 s:run()
 EOF
 fails root_outside 1 4 "extend: the root at (3, 0, 0) is outside the domain, by 2"
