@@ -39,6 +39,6 @@ venule.result {
   background = "#fdfcf7",
   picture = function(page)
     page:fill(blade, {color = "#dbe8c4", stroke = "#8aa36a", line_width = 3})
-    page:stroke(veins, {color = "#3d5c2b"})
+    page:stroke(veins, {color = "#3d5c2b", min_width = 0.45})
   end,
 }

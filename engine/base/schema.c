@@ -130,8 +130,7 @@ static int edit_distance(const char *a, const char *b) {
 const char *vn_closest_name(const char *word, const char *const *names, int count) {
     const char *best = NULL;
     int length = (int)strlen(word);
-    int least =
-        length / 3 + 2 < length ? length / 3 + 2 : length; // a third may be wrong and one more; never all
+    int least = length < 2 ? 0 : (length < 6 ? 2 : length / 3 + 1); // a third may be wrong, and one in any
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, names[i]);
         if (distance < least) {

@@ -175,6 +175,10 @@ vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def) {
         vn_growth_release(growth);
         return status;
     }
+    bool rescaled = fabs(growth->to - growth->own_length) > 1e-9 * growth->own_length;
+    if (rescaled) {
+        growth->base.unit[0] = '\0'; // lengths are the script's own from here on, no longer those of the file
+    }
     vn_growth_resize(growth, growth->from);
     *out = growth;
     return VN_OK;

@@ -21,7 +21,7 @@ uint64_t vn_morton(const double p[3], int dim, const double min[3], double size)
     int width = dim == 3 ? 14 : 20;
     double cells = (double)(1 << width);
     uint64_t key = 0;
-    for (int k = 0; k < dim; k++) {
+    for (int k = 0; k < dim && k < 3; k++) {
         double t = size > 0 ? (p[k] - min[k]) / size * cells : 0;
         double inside = t > 0 ? t : 0;
         uint64_t bits = (uint64_t)(inside < cells - 1 ? inside : cells - 1);

@@ -26,7 +26,8 @@ VN_API vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def);
 /// Marginal growth (Runions §3.3, READINGS R2): only the margin moves, from a blade of length `from` to one
 /// of `to`, both scaled about the origin. What lies inside stays where it is. Attractors thrown into it are
 /// thrown over the largest shape at once, and released when the margin has passed them. VN_INVALID when the
-/// outline is not star-shaped about the origin: its growth would erode the blade.
+/// outline is not star-shaped about the origin: its growth would erode the blade. Its unit is the domain's,
+/// unless `to` gives it another length: then it has none.
 VN_API vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def);
 VN_API void vn_growth_release(vn_growth *growth);
 

@@ -76,6 +76,16 @@ static void push_where(lua_State *L) {
     lua_pushliteral(L, "");
 }
 
+// Time is up, or somebody wants the run to end: the host's hook sees to it, at the next instruction, that no
+// pcall() outlives the error on top of the stack.
+static void stop_run(lua_State *L) {
+    lua_pushvalue(L, -1);
+    lua_setfield(L, LUA_REGISTRYINDEX, "venule.stopped");
+    if (lua_gethook(L) != NULL) {
+        lua_sethook(L, lua_gethook(L), LUA_MASKCOUNT, 1);
+    }
+}
+
 void vnl_try(lua_State *L, vn_status status) {
     if (status == VN_OK) {
         return;
@@ -87,9 +97,8 @@ void vnl_try(lua_State *L, vn_status status) {
     lua_setfield(L, LUA_REGISTRYINDEX, STATUS_KEY);
     lua_pushvalue(L, -1);
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.message");
-    if (status == VN_INTERRUPTED) { // the host's hook sees to it that no pcall() outlives this
-        lua_pushvalue(L, -1);
-        lua_setfield(L, LUA_REGISTRYINDEX, "venule.stopped");
+    if (status == VN_INTERRUPTED || (status == VN_LIMIT && vn_poll() != VN_OK)) {
+        stop_run(L);
     }
     lua_error(L);
 }

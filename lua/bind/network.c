@@ -159,18 +159,30 @@ static int network_scale(lua_State *L) {
     return 0;
 }
 
+static const char *check_json_path(lua_State *L, int index) {
+    const char *path = luaL_checkstring(L, index);
+    size_t length = strlen(path);
+    if (length < 5 || strcmp(path + length - 5, ".json") != 0) {
+        vnl_fail(L, "%s: networks are written as .json; give such a name", path);
+    }
+    return path;
+}
+
 static int network_save(lua_State *L) {
-    const char *path = luaL_checkstring(L, 2);
+    const char *path = check_json_path(L, 2);
     const char *manifest = vnl_push_manifest(L);
     vnl_try(L, vn_network_save(check_network(L), path, manifest));
     return 0;
 }
 
 // A run that ends with attractors left says why (venule.stalled()).
-static void remember_stall(lua_State *L, const vn_influence *influence, int32_t added) {
+static void remember_stall(lua_State *L, const vn_network *network, const vn_influence *influence,
+                           int32_t added) {
     int32_t left = vn_attractors_count(influence->attractors);
     if (added > 0 || left == 0) {
         lua_pushnil(L);
+    } else if (vn_network_count(network) == 0) {
+        lua_pushliteral(L, "the network has no root to grow from: call net:root(x, y)");
     } else if (vn_influence_count(influence) == 0) {
         lua_pushfstring(
             L,
@@ -194,7 +206,7 @@ static int network_extend(lua_State *L) {
     vn_network *network = check_network(L);
     vn_influence *influence = vnl_check_influence(L, 2);
     vnl_try(L, vn_extend(network, influence, &def, &added, &first));
-    remember_stall(L, influence, added);
+    remember_stall(L, network, influence, added);
     lua_pushinteger(L, added);
     lua_pushinteger(L, first + 1);
     return 2;
@@ -366,7 +378,7 @@ static int load_networks(lua_State *L) {
 enum { MOST_NETWORKS = 256 };
 
 static int save_networks(lua_State *L) {
-    const char *path = luaL_checkstring(L, 1);
+    const char *path = check_json_path(L, 1);
     const vn_network *networks[MOST_NETWORKS];
     const char *names[MOST_NETWORKS];
     int32_t count = 0;

@@ -23,7 +23,7 @@ static const char help_text[] =
     "      --json                    print what was written as one line of JSON\n"
     "      --quiet                   print nothing but errors\n"
     "      --help                    list the script's parameters, with ranges\n"
-    "  venule info FILE              what a saved network is: counts, bounds, measures\n"
+    "  venule info FILE [--json]     what a saved network is: counts, bounds, measures\n"
     "  venule test FILE|FOLDER...    run Lua tests (luaunit): test_*.lua\n"
     "  venule --version\n"
     "\n"

@@ -1,5 +1,5 @@
-// What a script may have: Lua without files, processes, C modules, bytecode and random numbers that would not repeat. What
-// it writes through `save` is not confined yet to the folders that the command line names.
+// What a script may have: Lua without files, processes, C modules, bytecode and random numbers that would not
+// repeat. What it writes through `save` is not confined yet to the folders that the command line names.
 
 #include "host/host.h"
 

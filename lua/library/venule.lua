@@ -109,9 +109,10 @@ function venule.tell_stall() end
 ---@field picture? any # a canvas, or function(canvas) … end that draws on one
 ---@field width? number # of the canvas that picture is given
 ---@field height? number # of the canvas that picture is given
+---@field margin? number # kept free around the view
 ---@field view? any # bounds of what it shows; left out: those of the networks
 ---@field background? string # of the canvas that picture is given
----@field unit? string # length unit of the view
+---@field unit? string # length unit of the view; left out: the view's own, or the network's
 
 ---Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); without one, a file called after the script.
 ---@param options venule.result.Options

@@ -160,9 +160,10 @@ local result_rows = {
   {"picture", nil, type = "any", doc = "a canvas, or function(canvas) … end that draws on one"},
   {"width", nil, type = "number", above = 0, unit = "pixels", doc = "of the canvas that picture is given"},
   {"height", nil, type = "number", above = 0, unit = "pixels", doc = "of the canvas that picture is given"},
+  {"margin", nil, type = "number", min = 0, unit = "pixels", doc = "kept free around the view"},
   {"view", nil, type = "any", doc = "bounds of what it shows; left out: those of the networks"},
   {"background", nil, type = "string", doc = "of the canvas that picture is given"},
-  {"unit", nil, type = "string", doc = "length unit of the view"},
+  {"unit", nil, type = "string", doc = "length unit of the view; left out: the view's own, or the network's"},
 }
 
 -- The networks as a list, by name: what pairs() gives comes in another order in every run.
@@ -182,18 +183,35 @@ local function extent_of(networks)
     min = min and {math.min(min[1], extent.min[1]), math.min(min[2], extent.min[2])} or extent.min
     max = max and {math.max(max[1], extent.max[1]), math.max(max[2], extent.max[2])} or extent.max
   end
-  return min and {min = min, max = max}
+  if not min then return nil end
+  local size = math.max(max[1] - min[1], max[2] - min[2])
+  local pad = size > 0 and size / 20 or 1
+  for k = 1, 2 do
+    if max[k] == min[k] then min[k], max[k] = min[k] - pad, max[k] + pad end -- a straight line has room about it
+  end
+  return {min = {min[1], min[2]}, max = {max[1], max[2]}}
+end
+
+-- Pages are at true scale when anybody named a unit: the view, or else a network.
+local function unit_of(r, view)
+  local network = networks_of(r)[1]
+  if view and view.unit or not network or network.unit == "" then return nil end
+  return network.unit
 end
 
 local function draw(r)
   if type(r.picture) == "userdata" then return r.picture end
+  local view = r.view or extent_of(networks_of(r))
   local canvas = venule.canvas {
-    width = r.width, height = r.height, view = r.view or extent_of(networks_of(r)), background = r.background, unit = r.unit,
+    width = r.width, height = r.height, margin = r.margin, view = view, background = r.background, unit = r.unit or unit_of(r, view),
   }
   if r.picture then
     r.picture(canvas)
   else
-    for _, network in ipairs(networks_of(r)) do canvas:stroke(network) end
+    for _, network in ipairs(networks_of(r)) do
+      local thin = network:measure().max_radius == 0 and 1 / canvas.scale or "radius" -- one pixel where radii are not known
+      canvas:stroke(network, {width = thin})
+    end
   end
   return canvas
 end
@@ -264,7 +282,11 @@ function scenario.result(given)
       venule.save(path, r.network or r.networks)
     end
   end
-  if host.finish then host.finish(outputs, summary(r)) end
+  if host.finish then
+    host.finish(outputs, summary(r))
+  else
+    print(table.concat(outputs, "\n"))
+  end
 end
 
 scenario.result_rows = result_rows
