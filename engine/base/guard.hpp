@@ -9,8 +9,8 @@ extern "C" {
 #include <exception>
 #include <new>
 
-/// Run @p body, which returns a vn_status; what it throws becomes a status and a message that begins with @p
-/// what.
+/// Run @p body, which returns a vn_status; what it throws becomes a status and a message that begins with
+/// @p what.
 template <typename Body>
 vn_status vn_guard(const char *what, Body &&body) noexcept {
     try {

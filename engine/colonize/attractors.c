@@ -149,8 +149,8 @@ static void move_attractor(vn_attractors *a, int32_t from, int32_t to) {
     a->idle.data[to] = a->idle.data[from];
 }
 
-// Everything that is listed by number is made again: the active ones at once, the rest when it is next asked
-// for.
+// Everything that is listed by number is made again: the active ones at once, the rest when it is next
+// asked for.
 vn_status vn_attractors_tidy(vn_attractors *a) {
     if (a->gone <= a->x.count / 2 + 32) {
         return VN_OK;

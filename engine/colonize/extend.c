@@ -123,8 +123,8 @@ typedef struct sight {
     vn_nearest *query;
 } sight;
 
-// How many near nodes an attractor asks in passing, and how many all that wait may ask together at the last
-// chance.
+// How many near nodes an attractor asks in passing, and how many all that wait may ask together at the
+// last chance.
 enum { GLANCE = 64, LAST_LOOKS = 1 << 21 };
 
 static bool sees_and_may_grow(int32_t node, void *payload) {
@@ -189,8 +189,8 @@ static void retire_hidden(vn_attractors *a, int32_t attractor) {
     vn_attractors_remove(a, attractor);
 }
 
-// The border is between this attractor and its node: it turns to the nearest node that sees it, or waits for
-// one.
+// The border is between this attractor and its node: it turns to the nearest node that sees it, or waits
+// for one.
 static vn_status turn_to_another(const extension *e, int32_t attractor) {
     vn_attractors *a = e->a;
     bool found;

@@ -70,8 +70,8 @@ static double today(const combination *c) {
     return length_of(c->a) + length_of(c->b);
 }
 
-// After a growing operand has grown. A failure, for want of memory, leaves them as they were, and is tried
-// again.
+// After a growing operand has grown. A failure, for want of memory, leaves them as they were, and is
+// tried again.
 static void combination_refresh(vn_domain *domain) {
     combination *c = (combination *)domain;
     double length = today(c);

@@ -90,8 +90,8 @@ static bool march(const vn_domain *domain, const double a[3], const double b[3])
     return true;
 }
 
-// An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of the
-// bounds on.
+// An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of
+// the bounds on.
 static bool pull_inside(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
     memcpy(p, from, 3 * sizeof *p);
     if (domain->kind->contains(domain, from)) {

@@ -58,8 +58,8 @@ vn_status vn_domain_measure_outline(vn_domain *domain);
 /// What vn_domain_dart() fails with.
 vn_status vn_domain_fail_dart(const vn_domain *domain);
 
-/// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of the
-/// radius.
+/// Sides of a circle where an outline stands in for it: its area is kept, its border is off by 1e-6 of
+/// the radius.
 enum { VN_FINE_SIDES = 2048 };
 
 /// A polygon's points where it is one, else NULL.

@@ -79,8 +79,8 @@ static vn_status build_strips(polygon *poly) {
     return VN_OK;
 }
 
-// A ray to the right crosses the border an odd number of times. Whether it passes left of an edge is decided
-// exactly.
+// A ray to the right crosses the border an odd number of times. Whether it passes left of an edge is
+// decided exactly.
 static bool polygon_contains(const vn_domain *domain, const double p[3]) {
     const polygon *poly = (const polygon *)domain;
     const strips *s = &poly->strips;

@@ -15,8 +15,8 @@ typedef struct chain_maker {
     VN_ARRAY(int32_t) heirs; // the child that continues a node's vein, or -1
 } chain_maker;
 
-// The width on the canvas. A thousandth of a pixel nobody sees, so sums that differ in their last bits are
-// one width.
+// The width on the canvas. A thousandth of a pixel nobody sees, so sums that differ in their last bits
+// are one width.
 static float drawn_width(const chain_maker *maker, double width) {
     double pixels = floor(width * maker->canvas->scale * 1000 + 0.5) / 1000;
     return (float)fmin(fmax(pixels, maker->def->min_width), 1e6);
@@ -151,8 +151,8 @@ static vn_status push_edges(chain_maker *maker) {
     return VN_OK;
 }
 
-// A join has no place in the order of widths: where its radius is not known it is as thin as the thinner of
-// its ends.
+// A join has no place in the order of widths: where its radius is not known it is as thin as the thinner
+// of its ends.
 static double join_width(const chain_maker *maker, int32_t a, int32_t b, double radius) {
     if (maker->def->widths == NULL && maker->def->width > 0) {
         return maker->def->width;

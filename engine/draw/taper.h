@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-/// Two arcs and two tangents, in the order of growing angles (clockwise on a canvas, where y points down):
-/// round the first circle from axis + turn to axis - turn, then round the second from axis - turn to axis +
-/// turn.
+/// Two arcs and two tangents, in the order of growing angles (clockwise on a canvas, where y points
+/// down): round the first circle from axis + turn to axis - turn, then round the second from axis - turn
+/// to axis + turn.
 typedef struct vn_taper {
     vn_spot center[2];
     double radius[2];

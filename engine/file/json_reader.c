@@ -154,8 +154,8 @@ static int32_t column_count(json_reader *reader, row_id id) {
     return rows[id].integers ? column->integers.count : column->numbers.count;
 }
 
-// Problems: one line each, which vn_networks_load() completes with the file's name. All return 0, which stops
-// yajl.
+// Problems: one line each, which vn_networks_load() completes with the file's name. All return 0, which
+// stops yajl.
 
 // `where` says whether the place where the parser stands is the place to look at.
 VN_PRINTF(3, 4) static int refuse(json_reader *reader, json_where where, const char *format, ...) {

@@ -8,8 +8,8 @@
 
 extern const vn_schema vn_svg_schema;
 
-/// The outline that vn_domain_svg() makes a domain of, in final coordinates and resolved; @p unit is "mm" or
-/// "".
+/// The outline that vn_domain_svg() makes a domain of, in final coordinates and resolved; @p unit is "mm"
+/// or "".
 vn_status vn_svg_read_rings(vn_rings *out, const char **unit, const char *path, const vn_svg_def *def);
 
 #endif

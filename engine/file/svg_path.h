@@ -5,8 +5,8 @@
 #include "domain/rings.h"
 #include "file/svg_style.h"
 
-/// Draws in an element's own coordinates, into rings in the file's final ones. Subpaths are closed as a fill
-/// does.
+/// Draws in an element's own coordinates, into rings in the file's final ones. Subpaths are closed as a
+/// fill does.
 typedef struct vn_svg_pen {
     vn_svg_matrix matrix;
     vn_rings *rings;  ///< NULL: only the bounds are taken, of curves those of their control points

@@ -239,8 +239,8 @@ static vn_status walk(svg_reader *reader, int32_t element, int32_t use, const sv
     svg_state state = *above;
     inherit(reader, element, &state);
     if (!state.style.on[VN_SVG_IS_IN_TREE] || !state.style.on[VN_SVG_IS_OPAQUE]) {
-        // What lies deeper is hidden too, and the id may be there: it is then known to the tree, but never
-        // met.
+        // What lies deeper is hidden too, and the id may be there: it is then known to the tree, but
+        // never met.
         reader->hidden = reader->hidden || state.chosen;
         return VN_OK;
     }

@@ -78,8 +78,8 @@ typedef struct vn_svg_tree {
     vn_text css;             ///< the contents of all style elements
 } vn_svg_tree;
 
-/// Read a file; @p path is borrowed. VN_IO and VN_LIMIT come with the file's name and line. Also to be freed
-/// on failure.
+/// Read a file; @p path is borrowed. VN_IO and VN_LIMIT come with the file's name and line. Also to be
+/// freed on failure.
 vn_status vn_svg_tree_read(vn_svg_tree *tree, const char *path);
 void vn_svg_tree_free(vn_svg_tree *tree);
 

@@ -33,8 +33,8 @@ void vn_network_count_tips(const vn_network *network, int32_t *tips) {
     }
 }
 
-// Tell those above each pending node; false when that takes longer than counting all anew. Counts are then in
-// between.
+// Tell those above each pending node; false when that takes longer than counting all anew. Counts are
+// then in between.
 static bool climb(vn_network *network) {
     int64_t steps = 0;
     for (int32_t i = 0; i < network->pending.count; i++) {

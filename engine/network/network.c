@@ -263,8 +263,8 @@ static vn_status copy_columns(vn_network *network, const vn_network_columns *col
     return VN_OK;
 }
 
-// Breadth first from the roots. Nodes that a circle of parents keeps out of reach are missed: then it is no
-// forest.
+// Breadth first from the roots. Nodes that a circle of parents keeps out of reach are missed: then it is
+// no forest.
 static vn_status find_sequence(vn_network *network) {
     int32_t count = network->x.count;
     bool sorted = true;

@@ -76,8 +76,8 @@ bool vn_network_murray_get(const vn_network *network, vn_murray_def *def);
 /// Whether vn_network_radius() knows anything.
 bool vn_network_has_radii(const vn_network *network);
 
-/// Give every node's edge a radius of its own, in place of a law; @p radius has one entry a node, each 0 or
-/// more.
+/// Give every node's edge a radius of its own, in place of a law; @p radius has one entry a node, each 0
+/// or more.
 vn_status vn_network_set_radii(vn_network *network, const double *radius);
 
 /// A whole network at once, for readers.

@@ -1,5 +1,5 @@
-/// A growing set of points hashed into square cells: near ones in time that does not depend on how many there
-/// are.
+/// A growing set of points hashed into square cells: near ones in time that does not depend on how many
+/// there are.
 #ifndef VN_SPACE_POINT_GRID_H
 #define VN_SPACE_POINT_GRID_H
 

@@ -38,8 +38,8 @@ static inline bool vn_finite(const double p[3]) {
 /// The place of @p p along a Z-shaped curve through the box: points near one another mostly get near keys.
 uint64_t vn_morton(const double p[3], int dim, const double min[3], double size);
 
-/// The box around points [begin, end) and the length of its longest side; an empty range has none (negative
-/// infinity).
+/// The box around points [begin, end) and the length of its longest side; an empty range has none
+/// (negative infinity).
 double vn_points_extent(const vn_points *points, int32_t begin, int32_t end, double low[3], double high[3]);
 
 /// Sort @p items, whose values are points, along the curve through the box at @p low of side @p size.

@@ -1,6 +1,6 @@
-/// Points that each remember a squared distance: "which of them is this new point nearer to than what they
-/// remember?" A forest of boxes over the points along a space-filling curve answers in time proportional to
-/// the answer.
+/// Points that each remember a squared distance: "which of them is this new point nearer to than what
+/// they remember?" A forest of boxes over the points along a space-filling curve answers in time
+/// proportional to the answer.
 #ifndef VN_SPACE_REACH_TREE_H
 #define VN_SPACE_REACH_TREE_H
 

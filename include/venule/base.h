@@ -91,8 +91,8 @@ VN_API void vn_interrupt(void);
 /// budget. Long loops of the engine ask once in a while; a host may ask too.
 VN_API vn_status vn_poll(void);
 
-/// Threads that parallel loops may use: 1 or more, 0 for as many as the machine has. Results never depend on
-/// it.
+/// Threads that parallel loops may use: 1 or more, 0 for as many as the machine has. Results never depend
+/// on it.
 VN_API void vn_set_threads(int threads);
 
 /// A stream of random numbers that is a pure function of (seed, stream, counter): number k of a stream can be
@@ -121,9 +121,8 @@ VN_API double vn_rng_normal(vn_rng *rng, double mean, double deviation);
 /// The next integer in [low, high], both included, without bias; @p low <= @p high.
 VN_API int64_t vn_rng_integer(vn_rng *rng, int64_t low, int64_t high);
 
-/// Set @p rng's next numbers apart: returns a fresh stream and moves @p rng on by one.
-/// A primitive that needs many numbers takes a fork, so that the caller's own sequence does not depend on how
-/// many.
+/// Set @p rng's next numbers apart: returns a fresh stream and moves @p rng on by one. A primitive that
+/// needs many numbers takes a fork, so that the caller's own sequence does not depend on how many.
 VN_API vn_rng vn_rng_fork(vn_rng *rng);
 
 #ifdef __cplusplus

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/// Shared: many may hold one. Only a growth changes. Points are double[3] throughout; a 2D domain ignores the
-/// third.
+/// Shared: many may hold one. Only a growth changes. Points are double[3] throughout; a 2D domain ignores
+/// the third.
 typedef struct vn_domain vn_domain;
 
 /// An axis-parallel box. In 2D the third components are 0.
@@ -86,8 +86,8 @@ VN_API bool vn_domain_sees(const vn_domain *domain, const double a[3], const dou
 /// The domain's value at @p p, in [0, 1]: 1 inside and 0 outside where it has no values of its own.
 VN_API double vn_domain_value(const vn_domain *domain, const double p[3]);
 
-/// A uniformly distributed point inside, into @p p. VN_INFEASIBLE when a million darts into its bounds all
-/// miss.
+/// A uniformly distributed point inside, into @p p. VN_INFEASIBLE when a million darts into its bounds
+/// all miss.
 VN_API vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]);
 
 #ifdef __cplusplus

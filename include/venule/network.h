@@ -77,8 +77,8 @@ typedef enum vn_order_kind {
 } vn_order_kind;
 /// Compute the order of every node's edge; read by vn_network_orders(). At equal width the lower index leads.
 VN_API vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind);
-/// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or are
-/// outdated.
+/// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or
+/// are outdated.
 VN_API const int32_t *vn_network_orders(const vn_network *network);
 
 /// What a network measures.

@@ -80,8 +80,8 @@ VN_API vn_status vn_canvas_text(vn_canvas *canvas, const char *text, const vn_te
 /// inside. VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
 VN_API vn_status vn_canvas_save(const vn_canvas *canvas, const char *path, const char *manifest);
 
-/// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names are
-/// given.
+/// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names
+/// are given.
 VN_API vn_status vn_network_save(const vn_network *network, const char *path, const char *manifest);
 VN_API vn_status vn_networks_save(const vn_network *const *networks, const char *const *names, int32_t count,
                                   const char *path, const char *manifest);

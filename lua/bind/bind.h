@@ -106,8 +106,8 @@ void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit)
 /// The file that a script means by argument @p index: a relative path is looked for beside the script, then
 /// in the working folder. Valid while it is on the stack, where it is left.
 const char *vnl_push_path(lua_State *L, int index);
-/// Push the JSON that files carry about how they were made; valid while it is on the stack, NULL where nobody
-/// knows.
+/// Push the JSON that files carry about how they were made; valid while it is on the stack, NULL where
+/// nobody knows.
 const char *vnl_push_manifest(lua_State *L);
 
 /// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and

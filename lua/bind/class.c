@@ -185,8 +185,8 @@ static int fail_unknown(lua_State *L, const vnl_class *class, const char *key) {
     return vnl_fail(L, "%s has no \"%s\"", class->name, key);
 }
 
-// Methods first, then the class's own fields; anything else is an error, not nil: `net.raduis` must not pass
-// silently.
+// Methods first, then the class's own fields; anything else is an error, not nil: `net.raduis` must not
+// pass silently.
 static int index_box(lua_State *L) {
     const vnl_class *class = class_of(L);
     lua_pushvalue(L, 2);
@@ -254,8 +254,8 @@ void vnl_register(lua_State *L, const vnl_class *class) {
     lua_pop(L, 1);
 }
 
-/// A column seen from Lua. It fetches the data at each access, so that growth of the object does not matter
-/// to it.
+/// A column seen from Lua. It fetches the data at each access, so that growth of the object does not
+/// matter to it.
 typedef struct view {
     const vnl_class *class;
     vnl_read_fn *read;

@@ -37,8 +37,8 @@ __attribute__((noreturn)) static void fail_unknown_field(lua_State *L, const vn_
     vnl_fail(L, "%s: unknown field \"%s\"", schema->name, key);
 }
 
-// Of several unknown fields the first by alphabet is named: lua_next() walks in an order that changes from
-// run to run.
+// Of several unknown fields the first by alphabet is named: lua_next() walks in an order that changes
+// from run to run.
 static void check_names(lua_State *L, int index, const vn_schema *schema) {
     lua_pushnil(L); // the unknown name found so far
     int found = lua_gettop(L);

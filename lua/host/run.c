@@ -237,8 +237,8 @@ static int exit_of(lua_State *L, int code, const char *message) {
     return code == LUA_ERRMEM ? vn_exit_status(VN_NO_MEMORY) : vn_exit_status(vnl_status_of(L, message));
 }
 
-// The message of the error on top. Metamethods are not asked: they are the script's, and nothing protects us
-// here.
+// The message of the error on top. Metamethods are not asked: they are the script's, and nothing protects
+// us here.
 static const char *message_of(lua_State *L, char *text, size_t size) {
     if (lua_type(L, -1) == LUA_TSTRING) {
         return lua_tostring(L, -1);

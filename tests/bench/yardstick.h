@@ -1,5 +1,5 @@
-/// The yardstick that absolute times are divided by: machines differ, and one machine differs from hour to
-/// hour.
+/// The yardstick that absolute times are divided by: machines differ, and one machine differs from hour
+/// to hour.
 #ifndef VN_BENCH_YARDSTICK_H
 #define VN_BENCH_YARDSTICK_H
 
