@@ -44,6 +44,11 @@ typedef struct vn_schema {
     const void *defaults; ///< a def structure
 } vn_schema;
 
+/// The schema of a row table and of the def structure with its defaults; the rows are counted here and
+/// nowhere else.
+#define VN_SCHEMA(name, doc, fields, defaults)                                                               \
+    { name, doc, fields, (int)(sizeof(fields) / sizeof((fields)[0])), sizeof(defaults), &(defaults) }
+
 #define VN_HUGE 1e300
 
 /// Check one number against its row: "throw.spacing = -1 must be above 0 length: …".

@@ -7,9 +7,8 @@ static const vn_field attractors_fields[] = {
     {"seed", VN_I64, 0, offsetof(vn_attractors_def, seed), -9e15, 9e15, "", NULL,
      "decides which of equally near nodes an attractor influences"},
 };
-const vn_schema vn_attractors_schema = {
-    "attractors",       "An empty set of attractors", attractors_fields, 2, sizeof(vn_attractors_def),
-    &attractors_default};
+const vn_schema vn_attractors_schema =
+    VN_SCHEMA("attractors", "An empty set of attractors", attractors_fields, attractors_default);
 
 vn_attractors_def vn_attractors_def_default(void) {
     return attractors_default;

@@ -10,9 +10,8 @@ static const vn_field consume_fields[] = {
     {"into", VN_OBJECT, 0, offsetof(vn_consume_def, into), 0, 0, "", "attractors",
      "a set that the consumed ones are added to"},
 };
-const vn_schema vn_consume_schema = {
-    "consume",       "Remove the attractors that were reached", consume_fields, 3, sizeof(vn_consume_def),
-    &consume_default};
+const vn_schema vn_consume_schema =
+    VN_SCHEMA("consume", "Remove the attractors that were reached", consume_fields, consume_default);
 
 vn_consume_def vn_consume_def_default(void) {
     return consume_default;

@@ -12,9 +12,8 @@ static const vn_field extend_fields[] = {
     {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
      "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
 };
-const vn_schema vn_extend_schema = {
-    "extend",       "Grow the influenced nodes by one segment", extend_fields, 2, sizeof(vn_extend_def),
-    &extend_default};
+const vn_schema vn_extend_schema =
+    VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);
 
 vn_extend_def vn_extend_def_default(void) {
     return extend_default;

@@ -8,12 +8,8 @@ static const vn_field influence_fields[] = {
     {"within", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_influence_def, within), 0, VN_HUGE, "length",
      NULL, "attraction distance: nodes farther away are not influenced; left out: any distance"},
 };
-const vn_schema vn_influence_schema = {"influence",
-                                       "Which attractors influence which nodes",
-                                       influence_fields,
-                                       2,
-                                       sizeof(vn_influence_def),
-                                       &influence_default};
+const vn_schema vn_influence_schema =
+    VN_SCHEMA("influence", "Which attractors influence which nodes", influence_fields, influence_default);
 
 vn_influence_def vn_influence_def_default(void) {
     return influence_default;

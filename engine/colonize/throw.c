@@ -26,12 +26,8 @@ static const vn_field throw_fields[] = {
     {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng",
      "the random numbers: venule.rng(seed)"},
 };
-const vn_schema vn_throw_schema = {"throw",
-                                   "Throw darts at a domain; those that stick become attractors",
-                                   throw_fields,
-                                   7,
-                                   sizeof(vn_throw_def),
-                                   &throw_default};
+const vn_schema vn_throw_schema = VN_SCHEMA(
+    "throw", "Throw darts at a domain; those that stick become attractors", throw_fields, throw_default);
 
 vn_throw_def vn_throw_def_default(void) {
     return throw_default;

@@ -10,7 +10,7 @@ static const vn_field box_fields[] = {
     {"max", VN_POINT, VN_REQUIRED, offsetof(vn_box_def, max), -VN_HUGE, VN_HUGE, "length", NULL,
      "the opposite corner; two coordinates make a flat box, three a solid one"},
 };
-const vn_schema vn_box_schema = {"box", "An upright box", box_fields, 2, sizeof(vn_box_def), &box_default};
+const vn_schema vn_box_schema = VN_SCHEMA("box", "An upright box", box_fields, box_default);
 
 vn_box_def vn_box_def_default(void) {
     return box_default;

@@ -11,8 +11,7 @@ static const vn_field disk_fields[] = {
     {"radius", VN_F64, VN_ABOVE_MIN, offsetof(vn_disk_def, radius), 0, 1e150, "length", NULL,
      "from the middle to the border"},
 };
-const vn_schema vn_disk_schema = {"disk", "A disk, or in 3D a ball", disk_fields,
-                                  2,      sizeof(vn_disk_def),       &disk_default};
+const vn_schema vn_disk_schema = VN_SCHEMA("disk", "A disk, or in 3D a ball", disk_fields, disk_default);
 
 typedef struct disk {
     vn_domain base;

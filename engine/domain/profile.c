@@ -11,12 +11,8 @@ static const vn_field profile_fields[] = {
      "function(t) with t from 0 (base) to 1 (tip), or a table of numbers from base to tip",
      "half the blade's width along its midrib; 0 or more"},
 };
-const vn_schema vn_profile_schema = {"profile",
-                                     "A leaf blade by its half width along the midrib",
-                                     profile_fields,
-                                     3,
-                                     sizeof(vn_profile_def),
-                                     &profile_default};
+const vn_schema vn_profile_schema =
+    VN_SCHEMA("profile", "A leaf blade by its half width along the midrib", profile_fields, profile_default);
 
 vn_profile_def vn_profile_def_default(void) {
     return profile_default;

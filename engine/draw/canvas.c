@@ -7,8 +7,6 @@
 
 #define ROW(name, type, flags, min, max, unit, kind, doc)                                                    \
     { #name, type, flags, offsetof(ROW_DEF, name), min, max, unit, kind, doc }
-#define SCHEMA(name, doc, fields, defaults)                                                                  \
-    { name, doc, fields, (int)(sizeof(fields) / sizeof(fields)[0]), sizeof(defaults), &(defaults) }
 
 // cairo's images end at 32,767; 2^28 pixels are one gigabyte.
 #define LARGEST_SIDE 32767.0
@@ -33,7 +31,8 @@ static const vn_field canvas_fields[] = {
         "at true "
         "scale; \"\": 96 pixels an inch"),
 };
-const vn_schema vn_canvas_schema = SCHEMA("canvas", "A picture to draw on", canvas_fields, canvas_defaults);
+const vn_schema vn_canvas_schema =
+    VN_SCHEMA("canvas", "A picture to draw on", canvas_fields, canvas_defaults);
 #undef ROW_DEF
 
 #define ROW_DEF vn_fill_def
@@ -44,7 +43,7 @@ static const vn_field fill_fields[] = {
     ROW(stroke, VN_TEXT, 0, 0, 0, "", NULL, "colour of the outline, or \"none\""),
     ROW(line_width, VN_F64, 0, 0, VN_HUGE, "length", NULL, "width of the outline; 0: one pixel"),
 };
-const vn_schema vn_fill_schema = SCHEMA("fill", "Fill a domain", fill_fields, fill_defaults);
+const vn_schema vn_fill_schema = VN_SCHEMA("fill", "Fill a domain", fill_fields, fill_defaults);
 #undef ROW_DEF
 
 #define ROW_DEF vn_stroke_def
@@ -58,7 +57,8 @@ static const vn_field stroke_fields[] = {
     ROW(min_width, VN_F64, 0, 0, LARGEST_SIDE, "pixels", NULL,
         "no edge is drawn thinner than this, so that the finest veins do not vanish"),
 };
-const vn_schema vn_stroke_schema = SCHEMA("stroke", "Draw a network's edges", stroke_fields, stroke_defaults);
+const vn_schema vn_stroke_schema =
+    VN_SCHEMA("stroke", "Draw a network's edges", stroke_fields, stroke_defaults);
 #undef ROW_DEF
 
 #define ROW_DEF vn_dots_def
@@ -69,7 +69,7 @@ static const vn_field dots_fields[] = {
         "0 is invisible, 1 hides what is behind; dots that overlap do not darken each other"),
     ROW(radius, VN_F64, 0, 0, VN_HUGE, "length", NULL, "of each dot; 0: two pixels"),
 };
-const vn_schema vn_dots_schema = SCHEMA("dots", "A dot at each point", dots_fields, dots_defaults);
+const vn_schema vn_dots_schema = VN_SCHEMA("dots", "A dot at each point", dots_fields, dots_defaults);
 #undef ROW_DEF
 
 #define ROW_DEF vn_text_def
@@ -82,7 +82,7 @@ static const vn_field text_fields[] = {
     ROW(anchor, VN_CHOICE, 0, 0, 2, "", "start|middle|end", "which part of the text is at `at`"),
 };
 const vn_schema vn_text_schema =
-    SCHEMA("text", "One line of text in DejaVu Sans", text_fields, text_defaults);
+    VN_SCHEMA("text", "One line of text in DejaVu Sans", text_fields, text_defaults);
 #undef ROW_DEF
 
 vn_canvas_def vn_canvas_def_default(void) {

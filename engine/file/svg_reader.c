@@ -34,14 +34,8 @@ static const vn_field svg_fields[] = {
      "accept outlines that cross themselves, and fill them as a painter would"},
 };
 
-const vn_schema vn_svg_schema = {
-    .name = "svg",
-    .doc = "the outline of a shape in an SVG file",
-    .fields = svg_fields,
-    .count = sizeof svg_fields / sizeof *svg_fields,
-    .size = sizeof(vn_svg_def),
-    .defaults = &svg_defaults,
-};
+const vn_schema vn_svg_schema =
+    VN_SCHEMA("svg", "The outline of a shape in an SVG file", svg_fields, svg_defaults);
 
 /// One shape as it was drawn: rings [first_ring, end_ring) of the reader.
 typedef struct svg_outline {

@@ -8,8 +8,8 @@ static const vn_field none_fields[] = {
     {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_growth_def, domain), 0, 0, "", "domain",
      "the shape, which stays as it is"},
 };
-const vn_schema vn_none_schema = {"none", "A domain that does not grow", none_fields,
-                                  1,      sizeof(vn_growth_def),         &growth_default};
+const vn_schema vn_none_schema =
+    VN_SCHEMA("none", "A domain that does not grow", none_fields, growth_default);
 
 vn_growth_def vn_growth_def_default(void) {
     return growth_default;

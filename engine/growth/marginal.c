@@ -20,12 +20,8 @@ static const vn_field marginal_fields[] = {
     {"step", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, step), 0, 1e150, "length", NULL,
      "the length that each step adds; left out: a hundredth of to - from"},
 };
-const vn_schema vn_marginal_schema = {"marginal",
-                                      "A blade of which only the margin moves (Runions §3.3)",
-                                      marginal_fields,
-                                      5,
-                                      sizeof(vn_growth_def),
-                                      &marginal_default};
+const vn_schema vn_marginal_schema = VN_SCHEMA(
+    "marginal", "A blade of which only the margin moves (Runions §3.3)", marginal_fields, marginal_default);
 
 static const vn_growth *growth_of(const vn_domain *domain) {
     return (const vn_growth *)domain;

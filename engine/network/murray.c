@@ -12,8 +12,8 @@ static const vn_field murray_fields[] = {
     {"tip_radius", VN_F64, VN_ABOVE_MIN, offsetof(vn_murray_def, tip_radius), 0, VN_HUGE, "length", NULL,
      "radius of the edges that end in a tip"},
 };
-const vn_schema vn_murray_schema = {"murray", "Radii by Murray's law", murray_fields,
-                                    2,        sizeof(vn_murray_def),   &murray_default};
+const vn_schema vn_murray_schema =
+    VN_SCHEMA("murray", "Radii by Murray's law", murray_fields, murray_default);
 
 vn_murray_def vn_murray_def_default(void) {
     return murray_default;

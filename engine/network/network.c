@@ -13,8 +13,7 @@ static const vn_field network_fields[] = {
     {"murray", VN_MIXED, 0, 0, 0, 0, "", "table {exponent=, tip_radius=}",
      "radii by Murray's law, kept up to date as the network grows"},
 };
-const vn_schema vn_network_schema = {"network", "An empty network",     network_fields,
-                                     4,         sizeof(vn_network_def), &network_default};
+const vn_schema vn_network_schema = VN_SCHEMA("network", "An empty network", network_fields, network_default);
 
 vn_network_def vn_network_def_default(void) {
     return network_default;

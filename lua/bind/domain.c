@@ -13,8 +13,8 @@ static const vn_field sample_fields[] = {
     {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng",
      "the random numbers: venule.rng(seed)"},
 };
-static const vn_schema sample_schema = {"sample", "Uniformly distributed points", sample_fields,
-                                        2,        sizeof(vn_throw_def),           &sample_default};
+static const vn_schema sample_schema =
+    VN_SCHEMA("sample", "Uniformly distributed points", sample_fields, sample_default);
 
 static void release_domain(void *object) {
     vn_domain_release(object);
