@@ -43,6 +43,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_reach_tree_free(&a->tree);
     vn_array_free(&a->hits);
     vn_array_free(&a->nodes);
+    vn_array_free(&a->by_node);
     vn_array_free(&a->active);
     vn_array_free(&a->activated);
     vn_array_free(&a->scratch);

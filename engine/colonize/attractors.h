@@ -49,6 +49,7 @@ struct vn_attractors {
     int32_t tree_count; ///< attractors from here on are not in the tree yet
     vn_reach_hits hits; ///< working memory
     vn_keyed_array nodes;
+    vn_keyed_array by_node;
 
     VN_ARRAY(int32_t)
     active; ///< those that have a node, ascending; gone ones are dropped when it is next read
@@ -112,8 +113,6 @@ struct vn_influence {
     uint64_t network_serial;
     VN_ARRAY(int32_t) attractor;
     VN_ARRAY(int32_t) node;
-    vn_keyed_array by_node; ///< working memory of vn_extend()
-    vn_keyed_array scratch;
 };
 
 #endif

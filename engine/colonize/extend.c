@@ -329,19 +329,19 @@ static vn_status grow_node(const extension *e) {
 }
 
 static vn_status group_by_node(vn_influence *influence) {
+    vn_attractors *a = influence->attractors;
     int32_t count = influence->node.count;
-    VN_TRY(vn_array_reserve(&influence->by_node, count));
+    VN_TRY(vn_array_reserve(&a->by_node, count));
     for (int32_t k = 0; k < count; k++) {
-        influence->by_node.data[k] =
-            (vn_keyed){(uint64_t)influence->node.data[k], influence->attractor.data[k]};
+        a->by_node.data[k] = (vn_keyed){(uint64_t)influence->node.data[k], influence->attractor.data[k]};
     }
-    influence->by_node.count = count;
-    return vn_sort_keyed(&influence->by_node, &influence->scratch);
+    a->by_node.count = count;
+    return vn_sort_keyed(&a->by_node, &a->scratch);
 }
 
 static vn_status grow_nodes(extension *e) {
-    const vn_keyed *pairs = e->influence->by_node.data;
-    int32_t count = e->influence->by_node.count;
+    const vn_keyed *pairs = e->a->by_node.data;
+    int32_t count = e->a->by_node.count;
     for (int32_t begin = 0, end; begin < count; begin = end) {
         end = begin + 1;
         while (end < count && pairs[end].key == pairs[begin].key) {

@@ -115,10 +115,13 @@ void vn_influence_destroy(vn_influence *influence) {
     if (influence != NULL) {
         vn_array_free(&influence->attractor);
         vn_array_free(&influence->node);
-        vn_array_free(&influence->by_node);
-        vn_array_free(&influence->scratch);
         VN_DELETE(influence);
     }
+}
+
+size_t vn_influence_bytes(const vn_influence *influence) {
+    int64_t pairs = (int64_t)influence->attractor.capacity + influence->node.capacity;
+    return sizeof *influence + (size_t)pairs * sizeof(int32_t);
 }
 
 int32_t vn_influence_count(const vn_influence *influence) {

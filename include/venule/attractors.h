@@ -74,6 +74,8 @@ typedef struct vn_influence vn_influence;
 VN_API vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
                                    const vn_influence_def *def);
 VN_API void vn_influence_destroy(vn_influence *influence);
+/// Bytes that it holds: for a host whose own garbage collector sees only a pointer.
+VN_API size_t vn_influence_bytes(const vn_influence *influence);
 VN_API int32_t vn_influence_count(const vn_influence *influence);
 /// The attractor of a pair, as vn_attractors_position() numbers them; -1 when the influence is not current.
 VN_API int32_t vn_influence_attractor(const vn_influence *influence, int32_t pair);

@@ -52,6 +52,12 @@ static int attractors_influence(lua_State *L) {
     vn_attractors *attractors = check_attractors(L);
     vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vnl_try(L, vn_influence_find((vn_influence **)box, attractors, network, &def));
+    // Lua sees a small box, and one a step of them: it has to be told what hangs behind each, or they pile
+    // up.
+    int kilobytes = (int)(vn_influence_bytes(*box) >> 10);
+    if (kilobytes > 0) {
+        lua_gc(L, LUA_GCSTEP, kilobytes);
+    }
     return 1;
 }
 
