@@ -9,7 +9,7 @@
 /// @p size zeroed bytes, or NULL. Freed by vn_resize(block, size, 0).
 void *vn_new_block(size_t size);
 
-/// A zeroed T, or NULL; freed by vn_delete().
+/// A zeroed T, or NULL; freed by VN_DELETE().
 #define VN_NEW(T) ((T *)vn_new_block(sizeof(T)))
 #define VN_DELETE(object) ((void)vn_resize((object), (object) != NULL ? sizeof *(object) : 0, 0))
 

@@ -62,7 +62,4 @@ vn_status vn_domain_fail_dart(const vn_domain *domain);
 /// the radius.
 enum { VN_FINE_SIDES = 2048 };
 
-/// A polygon's points where it is one, else NULL.
-const vn_rings *vn_domain_rings(const vn_domain *domain);
-
 #endif

@@ -146,21 +146,6 @@ static const vn_domain_kind polygon_kind = {.name = "polygon",
                                             .sees = polygon_sees,
                                             .outline = polygon_outline};
 
-static vn_status add_edges(polygon *poly) {
-    const vn_rings *rings = &poly->rings;
-    VN_TRY(vn_array_reserve(&poly->grid.segments, rings->x.count));
-    for (int32_t r = 0; r < rings->ends.count; r++) {
-        int32_t begin = vn_rings_begin(rings, r);
-        int32_t end = rings->ends.data[r];
-        for (int32_t i = begin; i < end; i++) {
-            int32_t j = i + 1 < end ? i + 1 : begin;
-            vn_segment edge = {rings->x.data[i], rings->y.data[i], rings->x.data[j], rings->y.data[j]};
-            VN_TRY(vn_array_push(&poly->grid.segments, edge));
-        }
-    }
-    return vn_segment_grid_build(&poly->grid);
-}
-
 static vn_status fill_polygon(polygon *poly) {
     poly->base.polygonal = true;
     poly->base.bounds = vn_rings_bounds(&poly->rings);
@@ -170,7 +155,8 @@ static vn_status fill_polygon(polygon *poly) {
     if (!(poly->base.measure > 0)) {
         return vn_fail(VN_INFEASIBLE, "polygon: the outline is empty, it has no area");
     }
-    VN_TRY(add_edges(poly));
+    VN_TRY(vn_rings_edges(&poly->rings, &poly->grid));
+    VN_TRY(vn_segment_grid_build(&poly->grid));
     return build_strips(poly);
 }
 
@@ -223,8 +209,4 @@ vn_status vn_domain_polygon(vn_domain **out, const double *xy, const int32_t *ri
     status = status == VN_OK ? polygon_from_drawn(out, &drawn) : status;
     vn_rings_free(&drawn);
     return status;
-}
-
-const vn_rings *vn_domain_rings(const vn_domain *domain) {
-    return domain->kind == &polygon_kind ? &((const polygon *)domain)->rings : NULL;
 }

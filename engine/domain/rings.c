@@ -128,18 +128,29 @@ static int32_t ring_of_point(const vn_rings *rings, int32_t point) {
     return low;
 }
 
+vn_status vn_rings_edges(const vn_rings *rings, vn_segment_grid *grid) {
+    VN_TRY(vn_array_reserve(&grid->segments, rings->x.count));
+    for (int32_t ring = 0; ring < rings->ends.count; ring++) {
+        int32_t begin = vn_rings_begin(rings, ring);
+        int32_t end = rings->ends.data[ring];
+        for (int32_t i = begin; i < end; i++) {
+            int32_t j = vn_rings_next(begin, end, i);
+            vn_segment edge = {rings->x.data[i], rings->y.data[i], rings->x.data[j], rings->y.data[j]};
+            VN_TRY(vn_array_push(&grid->segments, edge));
+        }
+    }
+    return VN_OK;
+}
+
 static vn_status push_edges(crossing_search *search) {
     const vn_rings *rings = search->rings;
-    VN_TRY(vn_array_reserve(&search->grid.segments, rings->x.count));
+    VN_TRY(vn_rings_edges(rings, &search->grid));
     VN_TRY(vn_array_reserve(&search->next, rings->x.count));
     for (int32_t ring = 0; ring < rings->ends.count; ring++) {
         int32_t begin = vn_rings_begin(rings, ring);
         int32_t end = rings->ends.data[ring];
         for (int32_t i = begin; i < end; i++) {
-            int32_t j = i + 1 < end ? i + 1 : begin;
-            vn_segment segment = {rings->x.data[i], rings->y.data[i], rings->x.data[j], rings->y.data[j]};
-            VN_TRY(vn_array_push(&search->grid.segments, segment));
-            VN_TRY(vn_array_push(&search->next, j));
+            VN_TRY(vn_array_push(&search->next, vn_rings_next(begin, end, i)));
         }
     }
     return VN_OK;

@@ -3,6 +3,7 @@
 #define VN_DOMAIN_RINGS_H
 
 #include "base/array.h"
+#include "space/segment_grid.h"
 #include "venule/domain.h"
 
 /// Ring i has the points [i > 0 ? ends[i-1] : 0, ends[i]); the last is joined to the first.
@@ -25,6 +26,12 @@ static inline int32_t vn_rings_begin(const vn_rings *rings, int32_t ring) {
 /// The area of one ring, positive when it runs counter-clockwise.
 double vn_rings_area_of(const vn_rings *rings, int32_t ring);
 vn_box vn_rings_bounds(const vn_rings *rings);
+/// Push every edge into @p grid, that of point i as segment i; the grid is not built yet.
+vn_status vn_rings_edges(const vn_rings *rings, vn_segment_grid *grid);
+/// The point that ends the edge of point @p i of the ring [begin, end).
+static inline int32_t vn_rings_next(int32_t begin, int32_t end, int32_t i) {
+    return i + 1 < end ? i + 1 : begin;
+}
 
 /// Two edges that cross or touch without being neighbours; VN_INVALID says where, after "@p what: ".
 vn_status vn_rings_check_simple(const vn_rings *rings, const char *what);

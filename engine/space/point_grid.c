@@ -211,24 +211,16 @@ static bool ask_ring(walk *w, const int64_t centre[3], int64_t ring) {
     return false;
 }
 
-static int64_t first_ring(const vn_point_grid *grid, const int64_t centre[3]) {
+// How many rings the centre lies below the cells @p low, or above the cells @p high, on the axis where that
+// is most.
+static int64_t rings_to(const vn_point_grid *grid, const int64_t centre[3], const int64_t low[3],
+                        const int64_t high[3]) {
     int64_t ring = 0;
     for (int k = 0; k < grid->dim; k++) {
-        int64_t below = grid->low[k] - centre[k];
-        int64_t above = centre[k] - grid->high[k];
+        int64_t below = low[k] - centre[k];
+        int64_t above = centre[k] - high[k];
         ring = below > ring ? below : ring;
         ring = above > ring ? above : ring;
-    }
-    return ring;
-}
-
-static int64_t last_ring(const vn_point_grid *grid, const int64_t centre[3]) {
-    int64_t ring = 0;
-    for (int k = 0; k < grid->dim; k++) {
-        int64_t above = grid->high[k] - centre[k];
-        int64_t below = centre[k] - grid->low[k];
-        ring = above > ring ? above : ring;
-        ring = below > ring ? below : ring;
     }
     return ring;
 }
@@ -242,9 +234,9 @@ void vn_point_grid_nearest(const vn_point_grid *grid, const vn_points *points, c
     walk w = {grid, points, p, ask_nearest, query};
     int64_t centre[3] = {0};
     cells_of(grid, p, centre);
-    int64_t last = last_ring(grid, centre);
+    int64_t last = rings_to(grid, centre, grid->high, grid->low);
     double asked = 0;
-    for (int64_t ring = first_ring(grid, centre); ring <= last; ring++) {
+    for (int64_t ring = rings_to(grid, centre, grid->low, grid->high); ring <= last; ring++) {
         double nearest = (double)(ring - 1) * grid->cell; // a point of this ring is at least this far away
         if (ring > 0 && nearest > 0 && nearest * nearest > query->reach2) {
             return;

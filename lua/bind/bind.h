@@ -42,8 +42,14 @@ extern const vnl_class vnl_influence_class;
 extern const vnl_class vnl_rng_class;
 extern const vnl_class vnl_canvas_class;
 
-/// The functions of `venule` itself and of its tables, each ended by a zeroed one.
+/// All classes, ended by NULL.
+extern const vnl_class *const vnl_classes[];
+
+/// The functions of `venule` itself, file by file, and of its tables, each ended by a zeroed one.
 extern const vnl_function vnl_module_functions[];
+extern const vnl_function vnl_network_functions[];
+extern const vnl_function vnl_attractors_functions[];
+extern const vnl_function vnl_canvas_functions[];
 extern const vnl_function vnl_domain_functions[];
 extern const vnl_function vnl_growth_functions[];
 

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-extern const vnl_function vnl_network_functions[];
-extern const vnl_function vnl_attractors_functions[];
-extern const vnl_function vnl_canvas_functions[];
+const vnl_class *const vnl_classes[] = {
+    &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
+    &vnl_influence_class, &vnl_canvas_class, &vnl_rng_class,     NULL};
 
 static int make_rng(lua_State *L) {
     lua_Integer seed = vnl_check_integer(L, 1, "rng seed");
@@ -177,11 +177,8 @@ static void make_strict(lua_State *L, const char *name) {
 }
 
 int luaopen_venule(lua_State *L) {
-    static const vnl_class *const classes[] = {
-        &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
-        &vnl_influence_class, &vnl_rng_class,    &vnl_canvas_class};
-    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
-        vnl_register(L, classes[i]);
+    for (int i = 0; vnl_classes[i] != NULL; i++) {
+        vnl_register(L, vnl_classes[i]);
     }
     vnl_register_view(L);
     vnl_push_functions(L, vnl_module_functions);

@@ -6,12 +6,9 @@
 #include <string.h>
 
 static const vnl_class *class_by_name(const char *name) {
-    static const vnl_class *const classes[] = {
-        &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
-        &vnl_influence_class, &vnl_rng_class,    &vnl_canvas_class};
-    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
-        if (strcmp(classes[i]->name, name) == 0) {
-            return classes[i];
+    for (int i = 0; vnl_classes[i] != NULL; i++) {
+        if (strcmp(vnl_classes[i]->name, name) == 0) {
+            return vnl_classes[i];
         }
     }
     return NULL;

@@ -9,10 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const vnl_function vnl_network_functions[];
-extern const vnl_function vnl_attractors_functions[];
-extern const vnl_function vnl_canvas_functions[];
-
 typedef struct writer {
     FILE *stubs;
     FILE *page;
@@ -236,9 +232,6 @@ static void write_lua_part(lua_State *L, const char *field, FILE *file) {
 }
 
 static void write_all(writer *w, lua_State *L) {
-    static const vnl_class *const classes[] = {
-        &vnl_domain_class,    &vnl_growth_class, &vnl_network_class, &vnl_attractors_class,
-        &vnl_influence_class, &vnl_canvas_class, &vnl_rng_class};
     fputs(
         "---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
         "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}}\n\n"
@@ -265,8 +258,8 @@ static void write_all(writer *w, lua_State *L) {
     write_functions(w, vnl_domain_functions, "venule.domain", '.');
     fputs("\n## venule.growth\n", w->page);
     write_functions(w, vnl_growth_functions, "venule.growth", '.');
-    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {
-        write_class(w, classes[i]);
+    for (int i = 0; vnl_classes[i] != NULL; i++) {
+        write_class(w, vnl_classes[i]);
     }
     fputs("return venule\n", w->stubs);
 }
