@@ -192,10 +192,13 @@ local function extent_of(networks)
   return {min = {min[1], min[2]}, max = {max[1], max[2]}}
 end
 
--- Pages are at true scale when anybody named a unit: the view, or else a network.
+-- What a page can be measured in. A network may count in cells or pixels: then its picture has no true scale.
+local paper_units = {mm = true, cm = true, m = true, um = true, ["in"] = true, pt = true}
+
+-- Pages are at true scale when anybody named such a unit: the view, or else a network.
 local function unit_of(r, view)
   local network = networks_of(r)[1]
-  if view and view.unit or not network or network.unit == "" then return nil end
+  if view and view.unit or not network or not paper_units[network.unit] then return nil end
   return network.unit
 end
 

@@ -326,6 +326,19 @@ one crossing 1 "cross" <<'EOF'
 local venule = require "venule"
 venule.domain.polygon {{0, 0}, {2, 2}, {2, 0}, {0, 2}}
 EOF
+script in_units <<'EOF'
+local venule = require "venule"
+local p = venule.param {{"unit", "mm"}}
+local net = venule.network {unit = p.unit}
+net:root(0, 0)
+net:add(1, 88, 88)
+venule.result {network = net, width = 900, height = 900}
+EOF
+expect "a network in mm" 0 "" "$program" run in_units.lua -o "$to/mm.svg"
+holds "its page is at true scale" "$to/mm.svg" 'width="90mm"'
+expect "a network in cells" 0 "" "$program" run in_units.lua --set unit=cells -o "$to/cells.svg"
+holds "its page has 96 pixels an inch" "$to/cells.svg" 'width="238.125mm"'
+rm "$to/mm.svg" "$to/cells.svg"
 script root_outside <<'EOF'
 local venule = require "venule"
 local disk = venule.domain.disk {}
