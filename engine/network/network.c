@@ -61,8 +61,7 @@ void vn_network_destroy(vn_network *network) {
     VN_DELETE(network);
 }
 
-// Room in every column first, so that a failure leaves the network as it was.
-static vn_status reserve_nodes(vn_network *network, int64_t need) {
+vn_status vn_network_reserve(vn_network *network, int64_t need) {
     VN_TRY(vn_array_reserve(&network->x, need));
     VN_TRY(vn_array_reserve(&network->y, need));
     if (network->dim == 3) {
@@ -120,11 +119,8 @@ static void push_node(vn_network *network, int32_t parent, const double p[3]) {
     network->version++;
 }
 
-static vn_status add_node(vn_network *network, int32_t parent, const double p[3], int32_t *node) {
+vn_status vn_network_make_room(vn_network *network, const double p[3]) {
     int32_t count = network->x.count;
-    if (node != NULL) {
-        *node = -1;
-    }
     if (!vn_finite(p)) {
         return vn_fail(VN_INVALID, "a node at (%g, %g, %g) is not finite", p[0], p[1], p[2]);
     }
@@ -133,7 +129,15 @@ static vn_status add_node(vn_network *network, int32_t parent, const double p[3]
                        "the network has reached network.max_nodes = %d nodes (raise it, or grow less)",
                        network->max_nodes);
     }
-    VN_TRY(reserve_nodes(network, (int64_t)count + 1));
+    return vn_network_reserve(network, (int64_t)count + 1);
+}
+
+static vn_status add_node(vn_network *network, int32_t parent, const double p[3], int32_t *node) {
+    int32_t count = network->x.count;
+    if (node != NULL) {
+        *node = -1;
+    }
+    VN_TRY(vn_network_make_room(network, p));
     push_node(network, parent, p);
     if (node != NULL) {
         *node = count;
@@ -208,7 +212,11 @@ int32_t vn_network_next_child(const vn_network *network, int32_t child) {
 }
 
 vn_status vn_network_order(const vn_network *network, const int32_t **order) {
-    *order = network->sequence.count > 0 ? network->sequence.data : NULL;
+    *order = NULL;
+    if (network->sequence.count > 0) {
+        vn_network_nth(network, 0);
+        *order = network->sequence.data;
+    }
     return VN_OK;
 }
 
@@ -233,7 +241,7 @@ static vn_status check_columns(const vn_network_columns *columns) {
 }
 
 static vn_status copy_columns(vn_network *network, const vn_network_columns *columns) {
-    VN_TRY(reserve_nodes(network, columns->count));
+    VN_TRY(vn_network_reserve(network, columns->count));
     for (int32_t i = 0; i < columns->count; i++) {
         network->x.data[i] = columns->x[i];
         network->y.data[i] = columns->y[i];
@@ -262,8 +270,7 @@ static vn_status copy_columns(vn_network *network, const vn_network_columns *col
     return VN_OK;
 }
 
-// Breadth first from the roots. Nodes that a circle of parents keeps out of reach are missed: then it is
-// no forest.
+// Nodes that a circle of parents keeps out of reach of every root are missed: then it is no forest.
 static vn_status find_sequence(vn_network *network) {
     int32_t count = network->x.count;
     bool sorted = true;
@@ -272,19 +279,17 @@ static vn_status find_sequence(vn_network *network) {
         sorted = sorted && network->parent.data[i] < i;
         if (network->parent.data[i] < 0) {
             network->tree.data[i] = network->roots++;
-            network->sequence.data[network->sequence.count++] = i;
         }
     }
-    for (int32_t k = 0; k < network->sequence.count; k++) {
+    int32_t reached = vn_network_resequence(network);
+    for (int32_t k = 0; k < reached; k++) {
         int32_t node = network->sequence.data[k];
-        for (int32_t c = network->first_child.data[node]; c >= 0; c = network->next_child.data[c]) {
-            network->tree.data[c] = network->tree.data[node];
-            network->sequence.data[network->sequence.count++] = c;
-        }
+        int32_t parent = network->parent.data[node];
+        network->tree.data[node] = parent >= 0 ? network->tree.data[parent] : network->tree.data[node];
     }
-    if (network->sequence.count < count) {
+    if (reached < count) {
         return vn_fail(VN_INVALID, "%d of the %d nodes hang from no root: their parents run in a circle",
-                       count - network->sequence.count, count);
+                       count - reached, count);
     }
     if (sorted) {
         vn_array_free(&network->sequence);

@@ -36,6 +36,7 @@ struct vn_network {
     VN_ARRAY(int32_t) orders;
     uint64_t orders_version;
     VN_ARRAY(int32_t) sequence; ///< parents first; empty while the indices themselves are such an order
+    bool unordered;             ///< an edge was split since `sequence` was made; it has room for all nodes
     bool murray;
     vn_murray_def law;
     int32_t roots;
@@ -60,11 +61,22 @@ static inline void vn_network_position(const vn_network *network, int32_t node, 
 /// The nodes in a grid, brought up to date. @p reach says which distances will be asked for (0: unknown).
 vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid **grid);
 
+/// Room for @p need nodes in every column first, so that a failure leaves the network as it was.
+vn_status vn_network_reserve(vn_network *network, int64_t need);
+/// Room for one more node, at @p p; or why there is none.
+vn_status vn_network_make_room(vn_network *network, const double p[3]);
+
 /// Carry pending tips up, so that `tips` holds everywhere.
 void vn_network_settle(const vn_network *constant);
 
+/// Make `sequence` anew, breadth first; how many nodes hang from a root.
+int32_t vn_network_resequence(vn_network *network);
+
 /// Node @p k of the traversal order, parents first.
 static inline int32_t vn_network_nth(const vn_network *network, int32_t k) {
+    if (network->unordered) {
+        vn_network_resequence((vn_network *)network); // a cache: what it says was settled by the growth
+    }
     return network->sequence.count > 0 ? network->sequence.data[k] : k;
 }
 

@@ -35,6 +35,10 @@ VN_API vn_status vn_network_murray(vn_network *network, const vn_murray_def *def
 VN_API vn_status vn_network_root(vn_network *network, const double p[3], int32_t *node);
 /// Add a child of @p parent. VN_INVALID for a parent that does not exist.
 VN_API vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3], int32_t *node);
+/// Put a new node at @p p into the edge between @p child and its parent: the new node is a child of that
+/// parent, and @p child its only child. It was born when @p child was, and the edge's radius holds for both
+/// halves. VN_INVALID for a root, which has no edge.
+VN_API vn_status vn_network_split(vn_network *network, int32_t child, const double p[3], int32_t *node);
 /// Close a loop: an extra edge between @p a and @p b. VN_INVALID when they are the same or connected already.
 VN_API vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radius);
 /// The step that nodes added from now on were born in; 0 at first. vn_extend() counts it on.
