@@ -24,6 +24,7 @@ vn_status vn_attractors_create(vn_attractors **out, const vn_attractors_def *def
     a->dim = def->dim;
     a->seed = (uint64_t)def->seed;
     a->version = 1;
+    a->free_tie = -1;
     *out = a;
     return VN_OK;
 }
@@ -51,7 +52,15 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->present);
     vn_array_free(&a->dormant);
     vn_array_free(&a->waiting);
+    vn_array_free(&a->first_tie);
+    vn_array_free(&a->stage);
+    vn_array_free(&a->ties);
+    vn_array_free(&a->touched);
+    vn_array_free(&a->outdated);
+    vn_array_free(&a->candidates);
+    vn_array_free(&a->near_nodes);
     vn_point_grid_free(&a->grid);
+    vn_domain_release(a->last.domain);
     vn_domain_release(a->sight);
     vn_domain_release(a->margin);
     VN_DELETE(a);
@@ -132,6 +141,7 @@ int32_t vn_attractors_dormant(const vn_attractors *a) {
 void vn_attractors_remove(vn_attractors *a, int32_t i) {
     a->near2.data[i] = -1;
     a->node.data[i] = -1;
+    vn_ties_drop(a, i);
     a->gone++;
     a->version++;
 }
@@ -147,6 +157,7 @@ static void move_attractor(vn_attractors *a, int32_t from, int32_t to) {
     a->id.data[to] = a->id.data[from];
     a->best.data[to] = a->best.data[from];
     a->idle.data[to] = a->idle.data[from];
+    vn_ties_move(a, from, to);
 }
 
 // Everything that is listed by number is made again: the active ones at once, the rest when it is next
@@ -160,6 +171,7 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
     a->active.count = 0;
     a->waiting.count = 0;
     a->activated.count = 0;
+    a->touched.count = 0;
     a->fresh_all = a->fresh_all || a->fresh.count > 0;
     a->fresh.count = 0;
     for (int32_t i = 0; i < a->x.count; i++) {
@@ -173,9 +185,13 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
         } else if (a->idle.data[kept] & VN_HIDDEN) {
             a->waiting.data[a->waiting.count++] = kept;
         }
+        if (kept < a->stage.count && (a->stage.data[kept] & VN_TOUCHED)) {
+            a->touched.data[a->touched.count++] = kept; // no more of them than there were
+        }
         kept++;
     }
     set_count(a, kept);
+    a->first_tie.count = a->stage.count = kept < a->stage.count ? kept : a->stage.count;
     a->gone = 0;
     a->attractors_seen = seen;
     a->tree_count = 0;

@@ -19,6 +19,33 @@ typedef struct vn_dormant {
     double p[3];
 } vn_dormant;
 
+/// One of the nodes that an attractor draws: a member of V(s), Runions §4.
+typedef struct vn_tie {
+    int32_t node, next;
+    float best;   ///< the distance from which a tagged vein's progress is counted
+    uint8_t idle; ///< steps without any
+    uint8_t state;
+} vn_tie;
+
+/// The bits of a tie's `state`. A vein that grows hands all but the last on to its new node.
+enum {
+    VN_TAGGED = 1,  ///< the attractor was reached while this vein was drawn by it
+    VN_REACHED = 2, ///< it is within the kill distance, and no longer drawn
+    VN_LEFT = 4,    ///< tagged, but it does not come nearer any more
+    VN_GREW = 8,    ///< it grew toward the attractor: it is no bystander
+    VN_GHOST = 16,  ///< a member no more; kept until the step is over, for its children to ask
+};
+
+/// The stages of an attractor that draws several veins.
+enum {
+    VN_FREE = 0,
+    VN_TOUCHED = 1,  ///< a vein has reached it, and it waits for the others
+    VN_OUTDATED = 2, ///< its Urquhart neighbors have to be found anew
+};
+
+/// How an attractor finds the nodes that it draws: "nearest", "relative", "urquhart".
+enum { VN_NEAREST, VN_RELATIVE, VN_URQUHART };
+
 /// Attractors keep their place here when one is consumed (`near2` turns negative), and move up only when more
 /// than half are gone; the public numbering passes over the gaps.
 ///
@@ -40,6 +67,22 @@ struct vn_attractors {
     uint32_t born;
     uint64_t version;
     vn_retired retired;
+
+    // The closed modes: `near2` is then the squared distance beyond which no new node matters, and `node` the
+    // first of the ties.
+    int mode;
+    VN_ARRAY(int32_t) first_tie;
+    VN_ARRAY(uint8_t) stage;
+    VN_ARRAY(vn_tie) ties;       ///< of all attractors, in lists
+    int32_t free_tie;            ///< the first of those not in use, or -1
+    VN_ARRAY(int32_t) touched;   ///< attractors that were reached and wait for other veins
+    VN_ARRAY(int32_t) outdated;  ///< whose Urquhart neighbors have to be found anew
+    vn_indices candidates;       ///< working memory
+    VN_ARRAY(vn_reach_hit) near_nodes;
+    int32_t minded_step;         ///< the network's step of the last look at the touched ones
+    bool tagging;                ///< touched ones wait for tagged veins, rather than for all
+
+    vn_extend_def last;          ///< how the veins grow; its domain is held
 
     // What the remembered nodes were taken from.
     uint64_t network_serial, network_moved;
@@ -95,8 +138,36 @@ vn_status vn_attractors_expect(vn_attractors *a, int64_t more);
 /// Close the gaps when they are more than half. What holds internal numbers must not be in use.
 vn_status vn_attractors_tidy(vn_attractors *a);
 
-/// Bring the remembered nodes up to date with @p network, for all nodes up to @p reach away.
-vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach);
+/// Bring the remembered nodes of @p mode up to date with @p network, for all nodes up to @p reach away.
+vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, int mode, double reach);
+
+/// Remember that attractor @p i has a node at squared distance @p d2 that it did not have before.
+vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2);
+
+// neighbors.c: V(s), in the closed modes.
+vn_status vn_ties_prepare(vn_attractors *a);
+/// Turn all ties into ghosts: V(s) is to be found anew, and veins keep their tags.
+void vn_ties_forget(vn_attractors *a);
+void vn_ties_drop(vn_attractors *a, int32_t i);
+void vn_ties_drop_ghosts(vn_attractors *a, int32_t i);
+void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);
+/// Find V(s) of attractor @p i among all nodes.
+vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
+/// A new node is at squared distance @p d2 of attractor @p i.
+vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2);
+/// Find anew what new nodes have outdated.
+vn_status vn_ties_renew(vn_attractors *a, vn_network *network);
+
+// touch.c: attractors die when all the veins that they draw have come.
+vn_status vn_touch(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed);
+vn_status vn_consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32_t *consumed);
+
+// meet.c: an edge that stays clear of others, or ends in the first one that it meets.
+typedef enum vn_outcome { VN_CLEAR, VN_MET, VN_BARRED } vn_outcome;
+/// Whether an edge from @p node to @p p (which is node @p to, or is to be one: -1) is clear of the others. If
+/// not, and it can be, @p node is joined to what it meets.
+vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, double length,
+                  vn_outcome *outcome);
 
 /// The attractors in a grid for queries of @p reach; gone ones are in it too.
 vn_status vn_attractors_grid(vn_attractors *a, double reach);

@@ -5,8 +5,9 @@ static const vn_consume_def consume_default = {.distance = 1};
 static const vn_field consume_fields[] = {
     {"distance", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_consume_def, distance), 0, VN_HUGE, "length",
      NULL, "kill distance: an attractor that a node is closer to is consumed"},
-    {"mode", VN_CHOICE, 0, offsetof(vn_consume_def, mode), 0, 0, "", "any",
-     "how many nodes must be that close: any one (open venation, Runions §3.3)"},
+    {"mode", VN_CHOICE, 0, offsetof(vn_consume_def, mode), 0, 0, "", "any|all|tagged",
+     "which nodes must be that close: any one (open venation, Runions §3.3), all that it influences (Webb), or "
+     "all whose veins it influenced when the first one came (closed venation, §4)"},
     {"into", VN_OBJECT, 0, offsetof(vn_consume_def, into), 0, 0, "", "attractors",
      "a set that the consumed ones are added to"},
 };
@@ -17,7 +18,7 @@ vn_consume_def vn_consume_def_default(void) {
     return consume_default;
 }
 
-static vn_status consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32_t *consumed) {
+vn_status vn_consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32_t *consumed) {
     double p[3];
     vn_points points = vn_attractors_points(a);
     vn_points_get(&points, i, p);
@@ -31,7 +32,7 @@ static vn_status consume_one(vn_attractors *a, int32_t i, vn_attractors *into, i
 
 // A hidden attractor remembers the nearest node that sees it; any node may consume it.
 static bool is_reached(const vn_attractors *a, const vn_network *network, int32_t i, double distance) {
-    if (!(a->idle.data[i] & VN_HIDDEN)) {
+    if (a->mode == VN_NEAREST && !(a->idle.data[i] & VN_HIDDEN)) {
         return a->node.data[i] >= 0 && a->near2.data[i] < distance * distance;
     }
     double p[3];
@@ -47,7 +48,7 @@ static vn_status consume_all(vn_attractors *a, vn_network *network, const vn_con
     VN_TRY(vn_network_grid(network, 0, &grid));
     for (int32_t i = 0; i < a->x.count; i++) {
         if (!vn_is_gone(a, i) && is_reached(a, network, i, def->distance)) {
-            VN_TRY(consume_one(a, i, def->into, consumed));
+            VN_TRY(vn_consume_one(a, i, def->into, consumed));
         }
     }
     return VN_OK;
@@ -58,7 +59,7 @@ static vn_status consume_fresh(vn_attractors *a, const vn_consume_def *def, int3
     for (int32_t k = 0; k < a->fresh.count; k++) {
         const vn_reach_hit *hit = &a->fresh.data[k];
         if (hit->distance2 < distance2 && !vn_is_gone(a, hit->point)) {
-            VN_TRY(consume_one(a, hit->point, def->into, consumed));
+            VN_TRY(vn_consume_one(a, hit->point, def->into, consumed));
         }
     }
     return VN_OK;
@@ -78,6 +79,16 @@ static void watch_waiting(vn_attractors *a, double distance2) {
     }
 }
 
+// Where an attractor draws one node alone, all of its nodes are any of them.
+static vn_status consume_by_mode(vn_attractors *a, vn_network *network, const vn_consume_def *def,
+                                 int32_t *consumed) {
+    if (a->mode != VN_NEAREST && def->mode != VN_CONSUME_ANY) {
+        return vn_touch(a, network, def, consumed);
+    }
+    bool all = a->fresh_all || def->distance * def->distance > a->consumed2;
+    return all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
+}
+
 vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {
     *consumed = 0;
     VN_TRY(vn_check_def(&vn_consume_schema, def));
@@ -85,10 +96,9 @@ vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def
         return vn_fail(VN_INVALID, "consume.into must be another set of attractors, of %d dimensions",
                        a->dim);
     }
-    VN_TRY(vn_attractors_sync(a, network, def->distance));
+    VN_TRY(vn_attractors_sync(a, network, a->mode, def->distance));
     double distance2 = def->distance * def->distance;
-    bool all = a->fresh_all || distance2 > a->consumed2;
-    vn_status status = all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
+    vn_status status = consume_by_mode(a, network, def, consumed);
     if (status != VN_OK) {
         *consumed = 0;
         return status;

@@ -11,6 +11,9 @@ static const vn_field extend_fields[] = {
      "D, the length of a new vein segment"},
     {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
      "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
+    {"meet", VN_CHOICE, 0, offsetof(vn_extend_def, meet), 0, 0, "", "cross|join",
+     "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to "
+     "it (in 2D)"},
 };
 const vn_schema vn_extend_schema =
     VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);
@@ -311,6 +314,46 @@ static vn_status check_roots(const extension *e) {
     return VN_OK;
 }
 
+static vn_status grow_edge(const extension *e, const double p[3]) {
+    vn_outcome outcome = VN_CLEAR;
+    if (e->def->meet == VN_MEET_JOIN && e->network->dim == 2) {
+        VN_TRY(vn_meet(e->network, e->node, p, -1, e->def->length, &outcome));
+    }
+    return outcome == VN_CLEAR ? vn_network_add(e->network, e->node, p, NULL) : VN_OK;
+}
+
+// In the closed modes an attractor that the border hides waits for other veins.
+static void note_hidden(const extension *e, bool inside) {
+    for (const vn_keyed *pair = e->begin; !inside && pair < e->end; pair++) {
+        e->a->idle.data[pair->value] |= VN_HIDDEN;
+    }
+}
+
+// Where an attractor draws several veins its patience is renewed by any that comes nearer (vn_ties_show). What
+// waits for tagged veins is minded by vn_touch().
+static void count_idle_steps(const extension *e) {
+    vn_attractors *a = e->a;
+    const vn_influence *influence = e->influence;
+    for (int32_t k = 0; k < influence->attractor.count; k++) {
+        int32_t i = influence->attractor.data[k];
+        bool again = k > 0 && influence->attractor.data[k - 1] == i;
+        bool minded = a->tagging && (a->stage.data[i] & VN_TOUCHED);
+        if (again || minded || (++a->idle.data[i] & VN_IDLE) <= PATIENCE) {
+            continue;
+        }
+        a->retired.hidden += a->idle.data[i] & VN_HIDDEN ? 1 : 0;
+        a->retired.circled += a->idle.data[i] & VN_HIDDEN ? 0 : 1;
+        vn_attractors_remove(a, i);
+    }
+}
+
+static void remember_extension(vn_attractors *a, const vn_extend_def *def) {
+    vn_domain *held = def->domain != NULL ? vn_domain_retain(def->domain) : NULL;
+    vn_domain_release(a->last.domain);
+    a->last = *def;
+    a->last.domain = held;
+}
+
 static vn_status grow_node(const extension *e) {
     double n[3], p[3];
     bool has_mean = mean_direction(e, n);
@@ -318,13 +361,17 @@ static vn_status grow_node(const extension *e) {
     bool free = has_mean && !has_child_at(e, e->node, p);
     bool inside = !free || stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
-        VN_TRY(vn_network_add(e->network, e->node, p, NULL));
+        VN_TRY(grow_edge(e, p));
+    } else if (e->a->mode != VN_NEAREST) {
+        note_hidden(e, inside);
     } else if (!inside || (e->def->domain != NULL && !has_mean)) {
         for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
             VN_TRY(turn_to_another(e, pair->value));
         }
     }
-    lose_patience(e);
+    if (e->a->mode == VN_NEAREST) {
+        lose_patience(e);
+    }
     return VN_OK;
 }
 
@@ -378,10 +425,15 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     VN_TRY(check_extend(network, influence, def));
     extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
     VN_TRY(check_roots(&e));
+    remember_extension(e.a, def);
+    int32_t joins = network->joins.count;
     network->step++;
     VN_TRY(group_by_node(influence));
     vn_status status = grow_nodes(&e);
     status = status == VN_OK && def->domain != NULL ? mind_waiting(&e, *first) : status;
-    *added = status == VN_OK ? network->x.count - *first : 0;
+    if (e.a->mode != VN_NEAREST) {
+        count_idle_steps(&e);
+    }
+    *added = status == VN_OK ? network->x.count - *first + network->joins.count - joins : 0;
     return status;
 }

@@ -3,8 +3,9 @@
 static const vn_influence_def influence_default = {0};
 
 static const vn_field influence_fields[] = {
-    {"mode", VN_CHOICE, 0, offsetof(vn_influence_def, mode), 0, 0, "", "nearest",
-     "which nodes an attractor influences: the nearest one (open venation, Runions §3)"},
+    {"mode", VN_CHOICE, 0, offsetof(vn_influence_def, mode), 0, 0, "", "nearest|relative|urquhart",
+     "which nodes an attractor influences: the nearest one (open venation, Runions §3), its relative "
+     "neighbors (closed venation, §4), or the Urquhart approximation of these (§5.2)"},
     {"within", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_influence_def, within), 0, VN_HUGE, "length",
      NULL, "attraction distance: nodes farther away are not influenced; left out: any distance"},
 };
@@ -60,31 +61,68 @@ static vn_status renew_active(vn_attractors *a) {
     return VN_OK;
 }
 
-static vn_status list_pairs(vn_influence *influence, double within) {
-    const vn_attractors *a = influence->attractors;
-    double within2 = within * within;
-    VN_TRY(vn_array_reserve(&influence->attractor, a->active.count));
-    VN_TRY(vn_array_reserve(&influence->node, a->active.count));
-    int32_t count = 0;
-    for (int32_t k = 0; k < a->active.count; k++) {
-        int32_t i = a->active.data[k];
-        if (a->node.data[i] >= 0 && a->near2.data[i] <= within2) {
-            influence->attractor.data[count] = i;
-            influence->node.data[count++] = a->node.data[i];
+static vn_status push_pair(vn_influence *influence, int32_t attractor, int32_t node) {
+    VN_TRY(vn_array_push(&influence->attractor, attractor));
+    return vn_array_push(&influence->node, node);
+}
+
+// A touched attractor draws only the veins that it waits for.
+static bool draws(const vn_attractors *a, int32_t i, const vn_tie *tie) {
+    bool tagged = (a->stage.data[i] & VN_TOUCHED) && a->tagging;
+    unsigned bits = tie->state & (VN_TAGGED | VN_REACHED | VN_LEFT);
+    return !tagged || bits == VN_TAGGED;
+}
+
+static vn_status list_ties(vn_influence *influence, int32_t i, double within2) {
+    vn_attractors *a = influence->attractors;
+    vn_points points = vn_attractors_points(a);
+    int32_t begin = influence->node.count;
+    double p[3], q[3];
+    vn_points_get(&points, i, p);
+    vn_ties_drop_ghosts(a, i);
+    for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
+        int32_t node = a->ties.data[tie].node;
+        vn_network_position(influence->network, node, q);
+        if (draws(a, i, &a->ties.data[tie]) && vn_distance2(p, q) <= within2) {
+            VN_TRY(push_pair(influence, i, node));
+            int32_t at = influence->node.count - 1;
+            for (; at > begin && influence->node.data[at - 1] > node; at--) {
+                influence->node.data[at] = influence->node.data[at - 1];
+            }
+            influence->node.data[at] = node;
         }
     }
-    influence->attractor.count = influence->node.count = count;
     return VN_OK;
 }
 
-static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *network, double within) {
+static vn_status list_pairs(vn_influence *influence, double within) {
+    vn_attractors *a = influence->attractors;
+    double within2 = within * within;
+    VN_TRY(vn_array_reserve(&influence->attractor, a->active.count));
+    VN_TRY(vn_array_reserve(&influence->node, a->active.count));
+    for (int32_t k = 0; k < a->active.count; k++) {
+        int32_t i = a->active.data[k];
+        if (a->node.data[i] < 0) {
+            continue;
+        }
+        if (a->mode != VN_NEAREST) {
+            VN_TRY(list_ties(influence, i, within2));
+        } else if (a->near2.data[i] <= within2) {
+            VN_TRY(push_pair(influence, i, a->node.data[i]));
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *network, int mode,
+                      double within) {
     influence->attractor.count = influence->node.count = 0;
     influence->attractors = a;
     influence->network = network;
     influence->attractors_version = 0; // no set has it: not current until all is found
     VN_TRY(vn_poll());
     VN_TRY(vn_attractors_tidy(a));
-    VN_TRY(vn_attractors_sync(a, network, within));
+    VN_TRY(vn_attractors_sync(a, network, mode, within));
     VN_TRY(renew_active(a));
     VN_TRY(list_pairs(influence, within));
     influence->attractors_version = a->version;
@@ -103,7 +141,7 @@ vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_ne
             return vn_fail_memory("an influence", sizeof **out);
         }
     }
-    vn_status status = find(*out, attractors, network, def->within > 0 ? def->within : INFINITY);
+    vn_status status = find(*out, attractors, network, def->mode, def->within > 0 ? def->within : INFINITY);
     if (status != VN_OK && made) {
         vn_influence_destroy(*out);
         *out = NULL;

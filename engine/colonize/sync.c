@@ -5,8 +5,10 @@
 
 #include "base/parallel.h"
 
-static void forget(vn_attractors *a, const vn_network *network, double reach2) {
+static void forget(vn_attractors *a, const vn_network *network, int mode, double reach2) {
     bool moved = a->network_serial == network->serial && a->network_moved != network->moved;
+    vn_ties_forget(a);
+    a->mode = mode;
     for (int32_t i = 0; i < a->x.count; i++) {
         if (!vn_is_gone(a, i)) {
             a->near2.data[i] = reach2;
@@ -30,7 +32,7 @@ static void forget(vn_attractors *a, const vn_network *network, double reach2) {
     a->fresh_all = true;
 }
 
-static vn_status note_fresh(vn_attractors *a, int32_t i, double d2) {
+vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2) {
     if (a->fresh_all) {
         return VN_OK;
     }
@@ -60,7 +62,7 @@ static vn_status show(vn_attractors *a, const vn_network *network, int32_t i, in
     if (tie && !vn_ranks_before(a->seed, a->id.data[i], node, present)) {
         return VN_OK;
     }
-    VN_TRY(note_fresh(a, i, d2));
+    VN_TRY(vn_attractors_note_fresh(a, i, d2));
     if (is_hidden_from(a, network, i, node)) {
         return VN_OK; // it may be reached, and consumed, but does not draw the node
     }
@@ -85,9 +87,12 @@ static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t 
         }
     }
     for (int32_t h = 0; h < a->hits.count; h++) {
-        if (a->hits.data[h].point < seen) {
-            VN_TRY(show(a, network, a->hits.data[h].point, node, a->hits.data[h].distance2));
+        vn_reach_hit hit = a->hits.data[h];
+        if (hit.point >= seen) {
+            continue;
         }
+        VN_TRY(a->mode == VN_NEAREST ? show(a, network, hit.point, node, hit.distance2)
+                                     : vn_ties_show(a, network, hit.point, node, hit.distance2));
     }
     return VN_OK;
 }
@@ -181,17 +186,40 @@ static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t b
     return status;
 }
 
+// Newcomers to a closed mode look for all their neighbors.
+static vn_status look_for_ties(vn_attractors *a, vn_network *network, int32_t begin) {
+    for (int32_t i = begin; i < a->x.count; i++) {
+        if (!vn_is_gone(a, i)) {
+            VN_TRY(vn_ties_look(a, network, i));
+        }
+        if (i % 4096 == 4095) {
+            VN_TRY(vn_poll());
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status show_ties(vn_attractors *a, vn_network *network, int32_t begin, int32_t seen) {
+    const vn_point_tree *tree;
+    VN_TRY(vn_network_tree_of_points(network, &tree));
+    VN_TRY(show_nodes(a, network, begin, seen));
+    return vn_ties_renew(a, network);
+}
+
 enum { FEW_NODES = 64 };
 
-vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach) {
+vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, int mode, double reach) {
     double reach2 = reach * reach;
     if (a->dim != network->dim) {
         return vn_fail(VN_INVALID, "attractors of %d dimensions cannot influence a network of %d", a->dim,
                        network->dim);
     }
     bool same = a->network_serial == network->serial && a->network_moved == network->moved;
-    if (!same || reach2 > a->reach2) {
-        forget(a, network, reach2);
+    if (!same || reach2 > a->reach2 || mode != a->mode) {
+        forget(a, network, mode, reach2);
+    }
+    if (mode != VN_NEAREST) {
+        VN_TRY(vn_ties_prepare(a));
     }
     int32_t known = a->attractors_seen;
     for (int32_t i = known; i < a->x.count; i++) {
@@ -205,9 +233,10 @@ vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, double reach
     // Half a sync that memory or time cut short would leave nodes unseen: then the next one starts over.
     a->network_serial = 0;
     if (newcomers > 0) {
-        VN_TRY(look_for_nodes(a, network, known));
+        VN_TRY(mode == VN_NEAREST ? look_for_nodes(a, network, known) : look_for_ties(a, network, known));
     }
-    VN_TRY(show_nodes(a, network, a->nodes_seen, known));
+    VN_TRY(mode == VN_NEAREST ? show_nodes(a, network, a->nodes_seen, known)
+                              : show_ties(a, network, a->nodes_seen, known));
     a->network_serial = network->serial;
     a->nodes_seen = network->x.count;
     a->attractors_seen = a->x.count;

@@ -42,6 +42,15 @@ static vn_status make_room(vn_network *network) {
     return VN_OK;
 }
 
+bool vn_network_connected(const vn_network *network, int32_t a, int32_t b) {
+    if (network->parent.data[a] == b || network->parent.data[b] == a) {
+        return true;
+    }
+    uint64_t key = pair_key(a, b);
+    return network->joined.count > 0 &&
+           network->joined.data[place_of(network->joined.data, network->joined.count, key)] == key;
+}
+
 vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radius) {
     int32_t count = network->x.count;
     if (a < 0 || b < 0 || a >= count || b >= count || a == b) {
@@ -53,8 +62,7 @@ vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radi
     VN_TRY(make_room(network));
     uint64_t key = pair_key(a, b);
     int32_t place = place_of(network->joined.data, network->joined.count, key);
-    bool connected = network->parent.data[a] == b || network->parent.data[b] == a;
-    if (connected || network->joined.data[place] == key) {
+    if (vn_network_connected(network, a, b)) {
         return vn_fail(VN_INVALID, "a join needs two nodes that are not connected yet");
     }
     network->joined.data[place] = key;

@@ -57,6 +57,9 @@ void vn_network_destroy(vn_network *network) {
     vn_array_free(&network->orders);
     vn_array_free(&network->sequence);
     vn_point_grid_free(&network->grid);
+    vn_point_tree_free(&network->tree_of_points);
+    vn_edge_grid_free(&network->edges);
+    vn_delaunay_destroy(network->delaunay);
     vn_free_text(network->unit);
     VN_DELETE(network);
 }

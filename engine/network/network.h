@@ -3,7 +3,10 @@
 #define VN_NETWORK_NETWORK_H
 
 #include "base/schema.h"
+#include "space/delaunay.h"
+#include "space/edge_grid.h"
 #include "space/point_grid.h"
+#include "space/point_tree.h"
 #include "venule/network.h"
 
 extern const vn_schema vn_network_schema;
@@ -47,6 +50,14 @@ struct vn_network {
     vn_point_grid grid;
     uint64_t grid_moved;
     int32_t grid_count; ///< nodes when its cells were chosen
+    vn_point_tree tree_of_points; ///< of the nodes; empty until somebody asks
+    uint64_t tree_moved;
+    vn_delaunay *delaunay; ///< of the nodes; NULL until somebody asks
+    uint64_t delaunay_moved;
+    vn_edge_grid edges; ///< of a flat network; joins are listed as -1 - join
+    uint64_t edges_moved;
+    int32_t edge_nodes, edge_joins; ///< how many are listed
+    int32_t edge_room;              ///< how many of both the buckets are meant for
 };
 
 static inline vn_points vn_network_points(const vn_network *network) {
@@ -65,6 +76,29 @@ vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid
 vn_status vn_network_reserve(vn_network *network, int64_t need);
 /// Room for one more node, at @p p; or why there is none.
 vn_status vn_network_make_room(vn_network *network, const double p[3]);
+
+/// The nodes in a tree, brought up to date.
+vn_status vn_network_tree_of_points(vn_network *network, const vn_point_tree **tree);
+/// The Delaunay triangulation of the nodes, brought up to date.
+vn_status vn_network_delaunay(vn_network *network, vn_delaunay **delaunay);
+
+/// Where edge @p edge of a flat network is: of a node and its parent, or of a join, as -1 - join.
+vn_segment vn_network_segment(const vn_network *network, int32_t edge);
+void vn_network_edge_ends(const vn_network *network, int32_t edge, int32_t *a, int32_t *b);
+
+/// Where a straight way from a node first meets an edge.
+typedef struct vn_meeting {
+    int32_t edge; ///< as vn_network_segment() names it
+    double way;   ///< the part of the way up to there, 0 to 1; 0 when it runs along an edge of its own node
+    double p[3];
+} vn_meeting;
+/// Whether the way from @p node to @p p meets an edge of this flat network other than at @p node itself, or
+/// at node @p to, which may be -1. @p typical is a length that most new edges have.
+vn_status vn_network_meets(vn_network *network, int32_t node, const double p[3], int32_t to, double typical,
+                           bool *meets, vn_meeting *meeting);
+
+/// Whether an edge or a join connects them.
+bool vn_network_connected(const vn_network *network, int32_t a, int32_t b);
 
 /// Carry pending tips up, so that `tips` holds everywhere.
 void vn_network_settle(const vn_network *constant);

@@ -60,7 +60,9 @@ VN_API vn_status vn_throw(vn_attractors *attractors, const vn_throw_def *def, in
 VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int32_t *released);
 
 typedef struct vn_influence_def {
-    int mode; ///< 0 "nearest": each attractor influences the node nearest to it
+    int mode; ///< 0 "nearest": each attractor influences the node nearest to it; 1 "relative": its relative
+              ///< neighbors among the nodes (Runions §4, READINGS R4), exactly; 2 "urquhart": those of its
+              ///< Delaunay neighbors that no other one of them excludes (§5.2, R5)
     double
         within; ///< attraction distance: nodes farther away are not influenced; 0 (the default): any distance
 } vn_influence_def;
@@ -83,27 +85,39 @@ VN_API int32_t vn_influence_node(const vn_influence *influence, int32_t pair);
 /// Whether neither the attractors nor the network changed since.
 VN_API bool vn_influence_current(const vn_influence *influence);
 
+enum { VN_MEET_CROSS, VN_MEET_JOIN };
+
 typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
-    vn_domain *domain; ///< an edge that would leave it is not made; may be NULL
+    vn_domain *domain; ///< an edge that would leave it is not made; held by the attractors; may be NULL
+    int meet;          ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
+                       ///< it ends there, joined to the other vein (in 2D)
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that
 /// direction vanishes, or has a child already, the node grows toward its first-ranked attractor alone
 /// (READINGS R3). Where the edge would leave the domain, each of the attractors is tried alone, then given to
 /// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
-/// retired. @p added gets how many nodes there are more, @p first the index of the first. Counts the
+/// retired. @p added gets how many nodes and joins there are more, @p first the index of the first such node. Counts the
 /// network's step on. When it adds none, and neither attractors nor domain change, no later call will.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,
                            int32_t *added, int32_t *first);
 
+enum { VN_CONSUME_ANY, VN_CONSUME_ALL, VN_CONSUME_TAGGED };
+
 typedef struct vn_consume_def {
-    double distance;     ///< kill distance d_k; > 0; default 1
-    int mode;            ///< 0 "any": one node closer than the distance is enough
+    double distance; ///< kill distance d_k; > 0; default 1
+    int mode; ///< 0 "any": one node closer than the distance is enough; 1 "all": all nodes that it influences
+              ///< are (Webb); 2 "tagged": all veins are that it drew when the first one came (Runions §4,
+              ///< READINGS R6). With influence "nearest" these are the same
     vn_attractors *into; ///< consumed ones are added to this set; may be NULL
 } vn_consume_def;
 VN_API vn_consume_def vn_consume_def_default(void);
-/// Remove the attractors that a node has reached. @p consumed gets how many.
+/// Remove the attractors that a node has reached. @p consumed gets how many. In the mode "tagged" the ends of
+/// veins that came to one attractor and are within twice the segment length of one another (that of the last
+/// vn_extend()) meet in one new node at the attractor, or amid themselves where it is farther off: a child of
+/// the first that came, with joins from the others. A tagged vein that has not come nearer for
+/// ⌈2 distance / length⌉ + 2 steps is waited for no longer.
 VN_API vn_status vn_consume(vn_attractors *attractors, vn_network *network, const vn_consume_def *def,
                             int32_t *consumed);
 

@@ -15,7 +15,7 @@ local rows = {
   {"segment_length", 1, type = "number", above = 0, unit = "length", doc = "D: the length a vein gains in a step"},
   {"attraction_distance", nil, type = "number", above = 0, unit = "length", doc = "sources farther than this draw no vein; left out: any distance"},
   {"darts", nil, type = "number", above = 0, unit = "darts/length²", required = true, doc = "ρ: darts thrown per area and step; under marginal growth, per area once"},
-  {"neighborhood", "nearest", choices = {"nearest"}, doc = "which nodes a source draws: the nearest one (open venation)"},
+  {"neighborhood", "nearest", choices = {"nearest", "relative", "urquhart"}, doc = "which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these"},
   {"vein_steps", 1, type = "integer", min = 1, max = 1000, doc = "vein steps to one growth step"},
   {"stop", "reached", choices = {"reached", "grown"}, doc = "end when every source is reached, or as soon as the blade is grown"},
   {"murray", nil, type = "table", doc = "{exponent=, tip_radius=}: radii by Murray's law"},
@@ -55,9 +55,10 @@ end
 
 function Venation:vein_step()
   local o, net, auxin = self.options, self.network, self.attractors
+  local closed = o.neighborhood ~= "nearest"
   local influence = auxin:influence(net, {mode = o.neighborhood, within = o.attraction_distance})
-  local added = net:extend(influence, {length = o.segment_length, domain = self.blade})
-  auxin:consume(net, {distance = o.kill_distance})
+  local added = net:extend(influence, {length = o.segment_length, domain = self.blade, meet = closed and "join" or "cross"})
+  auxin:consume(net, {distance = o.kill_distance, mode = closed and "tagged" or "any"})
   return added
 end
 

@@ -1,0 +1,104 @@
+#include "space/edge_grid.h"
+
+#include "base/status.h"
+
+#include <math.h>
+
+// Cells beyond this are merged into the outermost one, so that huge coordinates cannot overflow an integer.
+static const double FARTHEST_CELL = 1e15;
+
+// An edge that covers more cells than these is a mistake of scale.
+static const double MOST_CELLS = 1 << 20;
+
+vn_status vn_edge_grid_init(vn_edge_grid *grid, double cell, int32_t edges) {
+    int64_t buckets = 1024;
+    while (buckets < 2 * (int64_t)edges && buckets < (1 << 30)) {
+        buckets *= 2;
+    }
+    vn_edge_grid_free(grid);
+    grid->cell = cell;
+    VN_TRY(vn_array_reserve(&grid->heads, buckets));
+    grid->heads.count = (int32_t)buckets;
+    for (int64_t b = 0; b < buckets; b++) {
+        grid->heads.data[b] = -1;
+    }
+    return VN_OK;
+}
+
+void vn_edge_grid_free(vn_edge_grid *grid) {
+    vn_array_free(&grid->heads);
+    vn_array_free(&grid->entries);
+}
+
+static int64_t cell_of(const vn_edge_grid *grid, double coordinate) {
+    double cell = floor(coordinate / grid->cell);
+    return (int64_t)fmin(fmax(cell, -FARTHEST_CELL), FARTHEST_CELL);
+}
+
+static int32_t bucket_of(const vn_edge_grid *grid, int64_t i, int64_t j) {
+    uint64_t h = (uint64_t)i * 0x9E3779B97F4A7C15u ^ (uint64_t)j * 0xC2B2AE3D27D4EB4Fu;
+    h ^= h >> 29;
+    h *= 0xBF58476D1CE4E5B9u;
+    return (int32_t)((uint32_t)(h >> 32) & (uint32_t)(grid->heads.count - 1));
+}
+
+/// The cells of one row that a segment passes, a little too many rather than too few.
+typedef struct vn_row {
+    int64_t j, from, to;
+} vn_row;
+
+static vn_row row_of(const vn_edge_grid *grid, const vn_segment *s, int64_t j) {
+    double low = fmin(s->x0, s->x1), high = fmax(s->x0, s->x1), rise = s->y1 - s->y0;
+    if (fabs(rise) > 0.5 * grid->cell) { // where it is flatter, all of it
+        double slope = (s->x1 - s->x0) / rise;
+        double a = s->x0 + ((double)j * grid->cell - s->y0) * slope;
+        double b = s->x0 + ((double)(j + 1) * grid->cell - s->y0) * slope;
+        double slack = 1e-6 * grid->cell;
+        low = fmax(low, fmin(a, b) - slack);
+        high = fmin(high, fmax(a, b) + slack);
+    }
+    return (vn_row){j, cell_of(grid, low), cell_of(grid, high)};
+}
+
+static vn_status list_edge(vn_edge_grid *grid, int32_t edge, const vn_row *row) {
+    for (int64_t i = row->from; i <= row->to; i++) {
+        int32_t bucket = bucket_of(grid, i, row->j);
+        VN_TRY(vn_array_push(&grid->entries, ((vn_edge_entry){edge, grid->heads.data[bucket]})));
+        grid->heads.data[bucket] = grid->entries.count - 1;
+    }
+    return VN_OK;
+}
+
+vn_status vn_edge_grid_insert(vn_edge_grid *grid, int32_t edge, const vn_segment *s) {
+    double cells = (fabs(s->x1 - s->x0) + fabs(s->y1 - s->y0)) / grid->cell;
+    if (!(cells < MOST_CELLS)) {
+        return vn_fail(VN_LIMIT, "an edge is %g times as long as the new ones: split edges as they grow",
+                       cells);
+    }
+    int64_t last = cell_of(grid, fmax(s->y0, s->y1));
+    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
+        vn_row row = row_of(grid, s, j);
+        VN_TRY(list_edge(grid, edge, &row));
+    }
+    return VN_OK;
+}
+
+bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *s, vn_segment_visit_fn *visit,
+                        void *payload) {
+    if (grid->heads.count == 0) {
+        return true;
+    }
+    int64_t last = cell_of(grid, fmax(s->y0, s->y1));
+    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
+        vn_row row = row_of(grid, s, j);
+        for (int64_t i = row.from; i <= row.to; i++) {
+            int32_t entry = grid->heads.data[bucket_of(grid, i, j)];
+            for (; entry >= 0; entry = grid->entries.data[entry].next) {
+                if (!visit(grid->entries.data[entry].edge, payload)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}

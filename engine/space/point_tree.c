@@ -1,0 +1,192 @@
+#include "space/point_tree.h"
+
+enum { LEAF = 8, DEEPEST = 60 };
+
+void vn_point_tree_free(vn_point_tree *tree) {
+    vn_array_free(&tree->cells);
+    vn_array_free(&tree->next);
+}
+
+static const vn_tree_cell empty_cell = {-1, -1, 0};
+
+static vn_status add_children(vn_point_tree *tree, int32_t *first) {
+    int fan = 1 << tree->dim;
+    VN_TRY(vn_array_reserve(&tree->cells, (int64_t)tree->cells.count + fan));
+    *first = tree->cells.count;
+    for (int c = 0; c < fan; c++) {
+        tree->cells.data[tree->cells.count++] = empty_cell;
+    }
+    return VN_OK;
+}
+
+/// A box on the way down.
+typedef struct place {
+    double low[3], size;
+} place;
+
+static int octant(int dim, place *at, const double p[3]) {
+    int which = 0;
+    at->size *= 0.5;
+    for (int k = 0; k < dim; k++) {
+        if (p[k] >= at->low[k] + at->size) {
+            at->low[k] += at->size;
+            which |= 1 << k;
+        }
+    }
+    return which;
+}
+
+static void link_point(vn_point_tree *tree, int32_t cell, int32_t point) {
+    tree->next.data[point] = tree->cells.data[cell].head;
+    tree->cells.data[cell].head = point;
+    tree->cells.data[cell].count++;
+}
+
+static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_t cell, const place *at) {
+    int32_t first, point = tree->cells.data[cell].head;
+    VN_TRY(add_children(tree, &first));
+    while (point >= 0) {
+        int32_t next = tree->next.data[point];
+        double p[3];
+        place below = *at;
+        vn_points_get(points, point, p);
+        link_point(tree, first + octant(tree->dim, &below, p), point);
+        point = next;
+    }
+    tree->cells.data[cell] = (vn_tree_cell){first, -1, 0};
+    return VN_OK;
+}
+
+static place root_of(const vn_point_tree *tree) {
+    return (place){{tree->low[0], tree->low[1], tree->low[2]}, tree->size};
+}
+
+static vn_status insert(vn_point_tree *tree, const vn_points *points, int32_t point) {
+    double p[3];
+    place at = root_of(tree);
+    int32_t cell = 0;
+    vn_points_get(points, point, p);
+    for (int depth = 0;; depth++) {
+        if (tree->cells.data[cell].children < 0) {
+            if (tree->cells.data[cell].count < LEAF || depth >= DEEPEST) {
+                link_point(tree, cell, point);
+                return VN_OK;
+            }
+            VN_TRY(split_leaf(tree, points, cell, &at));
+        }
+        cell = tree->cells.data[cell].children + octant(tree->dim, &at, p);
+    }
+}
+
+static bool is_inside(const vn_point_tree *tree, const double p[3]) {
+    for (int k = 0; k < tree->dim; k++) {
+        if (p[k] < tree->low[k] || p[k] >= tree->low[k] + tree->size) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The root becomes one of the children of a root of twice its size, toward the point.
+static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
+    int32_t first;
+    int which = 0;
+    VN_TRY(add_children(tree, &first));
+    for (int k = 0; k < tree->dim; k++) {
+        if (p[k] < tree->low[k]) {
+            tree->low[k] -= tree->size;
+            which |= 1 << k;
+        }
+    }
+    tree->size *= 2;
+    tree->cells.data[first + which] = tree->cells.data[0];
+    tree->cells.data[0] = (vn_tree_cell){first, -1, 0};
+    return VN_OK;
+}
+
+static vn_status plant(vn_point_tree *tree, int dim, const vn_points *points, int32_t count) {
+    double high[3];
+    tree->dim = dim;
+    tree->size = vn_points_extent(points, 0, count, tree->low, high);
+    tree->size = tree->size > 0 ? 1.001 * tree->size : 1;
+    return vn_array_push(&tree->cells, empty_cell);
+}
+
+vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count) {
+    VN_TRY(vn_array_reserve(&tree->next, count));
+    if (tree->cells.count == 0 && count > 0) {
+        VN_TRY(plant(tree, dim, points, count));
+    }
+    for (; tree->next.count < count; tree->next.count++) {
+        double p[3];
+        vn_points_get(points, tree->next.count, p);
+        while (!is_inside(tree, p)) {
+            VN_TRY(grow_root(tree, p));
+        }
+        VN_TRY(insert(tree, points, tree->next.count));
+    }
+    return VN_OK;
+}
+
+typedef struct lune_query {
+    const vn_point_tree *tree;
+    const vn_points *points;
+    const vn_lune *lune;
+    double width2; ///< the squared distance of the lune's two points, and a little
+    vn_point_test_fn *test;
+    void *payload;
+} lune_query;
+
+static double distance2_to(const place *at, int dim, const double p[3]) {
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        double below = at->low[k] - p[k], above = p[k] - (at->low[k] + at->size);
+        double d = fmax(fmax(below, above), 0);
+        sum += d * d;
+    }
+    return sum;
+}
+
+static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
+    for (int32_t point = leaf->head; point >= 0; point = q->tree->next.data[point]) {
+        if (vn_points_distance2(q->points, point, q->lune->s) <= q->width2 &&
+            vn_points_distance2(q->points, point, q->lune->v) <= q->width2 &&
+            q->test(point, q->lune, q->payload)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): no deeper than DEEPEST below the root, and that by doubling alone
+static bool any_below(const lune_query *q, int32_t cell, const place *at) {
+    const vn_tree_cell *here = &q->tree->cells.data[cell];
+    int dim = q->tree->dim;
+    if (distance2_to(at, dim, q->lune->s) > q->width2 || distance2_to(at, dim, q->lune->v) > q->width2) {
+        return false;
+    }
+    if (here->children < 0) {
+        return any_in_leaf(q, here);
+    }
+    for (int c = 0; c < 1 << dim; c++) {
+        const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
+        if (child->children < 0 && child->count == 0) {
+            continue;
+        }
+        place below = {{at->low[0], at->low[1], at->low[2]}, 0.5 * at->size};
+        for (int k = 0; k < dim; k++) {
+            below.low[k] += c >> k & 1 ? below.size : 0;
+        }
+        if (any_below(q, here->children + c, &below)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *points, const vn_lune *lune,
+                               vn_point_test_fn *test, void *payload) {
+    lune_query q = {tree, points, lune, vn_distance2(lune->s, lune->v) * (1 + 1e-9), test, payload};
+    place root = root_of(tree);
+    return tree->cells.count > 0 && any_below(&q, 0, &root);
+}

@@ -1,0 +1,37 @@
+/// A growing set of points in a tree of square boxes: is there a point in some region, however large or far off
+/// it is, in time that depends on its border alone.
+#ifndef VN_SPACE_POINT_TREE_H
+#define VN_SPACE_POINT_TREE_H
+
+#include "space/points.h"
+
+/// A box: halved along each axis into `children`, 2^dim cells from that index on; or, where that is -1, a leaf
+/// with a chain of points.
+typedef struct vn_tree_cell {
+    int32_t children, head, count;
+} vn_tree_cell;
+
+/// Holds the points 0 .. count-1 of columns that the caller keeps and passes to each call.
+typedef struct vn_point_tree {
+    int dim;
+    double low[3], size; ///< of the root's box
+    VN_ARRAY(vn_tree_cell) cells;
+    VN_ARRAY(int32_t) next; ///< of each point in its leaf
+} vn_point_tree;
+
+void vn_point_tree_free(vn_point_tree *tree);
+/// Insert the points up to @p count that are not yet in it; a zeroed tree is empty.
+vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count);
+
+/// The lune of two points: what is nearer to @p s than @p v is, and no farther from @p v than @p s is.
+typedef struct vn_lune {
+    double s[3], v[3];
+} vn_lune;
+
+/// Whether a point of the tree may be in the lune; called only for points that are, to rounding.
+typedef bool vn_point_test_fn(int32_t point, const vn_lune *lune, void *payload);
+/// Whether @p test is true of some point.
+bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *points, const vn_lune *lune,
+                               vn_point_test_fn *test, void *payload);
+
+#endif

@@ -1,0 +1,208 @@
+// V(s) against its definition. Coordinates are whole numbers below 2^20, so that plain doubles are exact.
+
+#include "support.h"
+
+#include "colonize/attractors.h"
+
+enum { MOST = 240 };
+
+typedef struct scene {
+    int dim, nodes;
+    double node[MOST][3];
+    double source[3];
+} scene;
+
+static double squared(const double p[3], const double q[3]) {
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        sum += (p[k] - q[k]) * (p[k] - q[k]);
+    }
+    return sum;
+}
+
+// READINGS R4, word for word.
+static bool is_relative_neighbor(const scene *s, int v) {
+    double d = squared(s->node[v], s->source);
+    for (int u = 0; u < s->nodes; u++) {
+        if (u != v && squared(s->node[u], s->source) < d && squared(s->node[u], s->node[v]) <= d) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void random_place(vn_rng *rng, int dim, int kind, double p[3]) {
+    static const double ring[12][2] = {{25, 0},   {-25, 0},   {0, 25},  {0, -25},  {15, 20}, {-15, 20},
+                                       {15, -20}, {-15, -20}, {20, 15}, {-20, 15}, {7, 24},  {24, 7}};
+    double size = kind == 0 ? 1 << 20 : kind == 1 ? 6 : 40;
+    for (int k = 0; k < 3; k++) {
+        p[k] = k < dim ? floor(vn_rng_uniform(rng, 0, size)) : 0;
+    }
+    if (kind == 2) { // on one line
+        p[1] = 2 * p[0];
+        p[2] = dim == 3 ? 3 * p[0] : 0;
+    } else if (kind == 3) { // on one circle
+        const double *q = ring[(int)vn_rng_uniform(rng, 0, 12)];
+        p[0] = q[0];
+        p[1] = q[1];
+        p[2] = 0;
+    }
+}
+
+static vn_network *nodes_of(const scene *s, int nodes) {
+    vn_network *network = network_of(s->dim);
+    for (int i = 0; i < nodes; i++) {
+        assert_ok(vn_network_root(network, s->node[i], NULL));
+    }
+    return network;
+}
+
+static int found(vn_influence **influence, vn_attractors *a, vn_network *network, int mode, bool seen[MOST]) {
+    vn_influence_def def = {.mode = mode};
+    assert_ok(vn_influence_find(influence, a, network, &def));
+    memset(seen, 0, MOST * sizeof *seen);
+    for (int32_t k = 0; k < vn_influence_count(*influence); k++) {
+        assert_false(seen[vn_influence_node(*influence, k)]);
+        seen[vn_influence_node(*influence, k)] = true;
+    }
+    return vn_influence_count(*influence);
+}
+
+static void assert_relative(const scene *s, const bool seen[MOST]) {
+    for (int v = 0; v < s->nodes; v++) {
+        if (seen[v] != is_relative_neighbor(s, v)) {
+            print_message("dim %d, %d nodes, node %d: %d\n", s->dim, s->nodes, v, seen[v]);
+        }
+        assert_int_equal(seen[v], is_relative_neighbor(s, v));
+    }
+}
+
+// The source comes first, last or half way; nodes come one at a time or in batches.
+static void check_scene(scene *s, vn_rng *rng) {
+    bool seen[MOST];
+    int all = s->nodes, early = (int)vn_rng_uniform(rng, 0, all + 1);
+    vn_network *network = nodes_of(s, early);
+    vn_attractors *a = attractors_of(s->dim, 0);
+    vn_influence *influence = NULL;
+    assert_ok(vn_attractors_add(a, s->source));
+    for (int count = early; count <= all;) {
+        s->nodes = count;
+        found(&influence, a, network, VN_RELATIVE, seen);
+        assert_relative(s, seen);
+        int next = count + 1 + (int)vn_rng_uniform(rng, 0, 40);
+        next = next > all && count < all ? all : next;
+        for (int i = count; i < next && i < all; i++) {
+            assert_ok(vn_network_root(network, s->node[i], NULL));
+        }
+        count = next;
+    }
+    s->nodes = all;
+    vn_influence_destroy(influence);
+    vn_attractors_destroy(a);
+    vn_network_destroy(network);
+}
+
+static void relative_neighbors_are_what_the_definition_says(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 12000; seed++) {
+        vn_rng rng = vn_rng_make(seed);
+        int kind = (int)(seed % 5);
+        scene s = {.dim = seed % 3 == 2 ? 3 : 2};
+        s.nodes = 1 + (int)vn_rng_uniform(&rng, 0, seed % 7 == 0 ? MOST - 1 : 70);
+        for (int i = 0; i < s.nodes; i++) {
+            random_place(&rng, s.dim, kind, s.node[i]);
+        }
+        random_place(&rng, s.dim, seed % 2 == 0 ? kind : 4, s.source);
+        for (int k = 0; k < s.dim && seed % 11 == 0; k++) {
+            s.source[k] = s.node[0][k]; // on a node
+        }
+        s.source[0] -= seed % 13 == 0 ? 1000 : 0; // outside the hull
+        check_scene(&s, &rng);
+    }
+}
+
+static void assert_golden(const double (*node)[2], int nodes, double x, double y, int mode,
+                          unsigned expected) {
+    scene s = {.dim = 2, .nodes = nodes, .source = {x, y}};
+    for (int i = 0; i < nodes; i++) {
+        s.node[i][0] = node[i][0];
+        s.node[i][1] = node[i][1];
+    }
+    // Enough far nodes that the triangulation is asked, on a circle round everything.
+    for (int i = 0; i < 60 && mode >= 0; i++) {
+        s.node[s.nodes][0] = 1000 * cos(0.1 * i);
+        s.node[s.nodes++][1] = 1000 * sin(0.1 * i);
+    }
+    bool seen[MOST];
+    vn_network *network = nodes_of(&s, s.nodes);
+    vn_attractors *a = attractors_of(s.dim, 0);
+    vn_influence *influence = NULL;
+    assert_ok(vn_attractors_add(a, s.source));
+    found(&influence, a, network, mode, seen);
+    for (int i = 0; i < nodes; i++) {
+        assert_int_equal(seen[i], expected >> i & 1);
+    }
+    vn_influence_destroy(influence);
+    vn_attractors_destroy(a);
+    vn_network_destroy(network);
+}
+
+static void golden_neighbors(void **state) {
+    (void)state;
+    static const double first[][2] = {{.38, .18}, {.94, .56}, {.58, .81}, {.62, .33}, {.49, .29}};
+    static const double second[][2] = {{.29, .29}, {.53, .56}, {.39, .32}, {.52, .73}};
+    static const double tie[][2] = {{3, 4}, {5, 0}}, twice[][2] = {{2, 0}, {2, 0}},
+                        not_tie[][2] = {{1, 3}, {5, 0}};
+    assert_golden(first, 5, .2, .5, VN_RELATIVE, 1 << 4);
+    assert_golden(first, 5, .2, .5, VN_URQUHART, 1 << 2 | 1 << 4);
+    assert_golden(second, 4, .22, .70, VN_RELATIVE, 1 << 3);
+    assert_golden(second, 4, .22, .70, VN_URQUHART, 1 << 3);
+    for (int mode = VN_RELATIVE; mode <= VN_URQUHART; mode++) {
+        assert_golden(tie, 2, 0, 0, mode, 3);
+        assert_golden(twice, 2, 0, 0, mode, 3);
+        assert_golden(not_tie, 2, 0, 0, mode, 1);
+    }
+}
+
+// READINGS, golden cases: two veins meet at one source.
+static void golden_meeting(void **state) {
+    (void)state;
+    scene s = {.dim = 2, .nodes = 2, .node = {{-3, 0}, {4, 0}}};
+    vn_network *network = nodes_of(&s, 2);
+    vn_attractors *a = attractors_of(s.dim, 0);
+    vn_influence *influence = NULL;
+    vn_influence_def find = {.mode = VN_RELATIVE};
+    vn_extend_def extend = {.length = 1, .meet = VN_MEET_JOIN};
+    vn_consume_def consume = {.distance = 1.2, .mode = VN_CONSUME_TAGGED};
+    assert_ok(vn_attractors_add(a, s.source));
+    static const int32_t added[] = {2, 2, 1}, died[] = {0, 0, 1};
+    for (int step = 0; step < 3; step++) {
+        int32_t more, first, consumed;
+        assert_ok(vn_influence_find(&influence, a, network, &find));
+        assert_ok(vn_extend(network, influence, &extend, &more, &first));
+        assert_ok(vn_consume(a, network, &consume, &consumed));
+        assert_int_equal(more, added[step]);
+        assert_int_equal(consumed, died[step]);
+    }
+    assert_int_equal(vn_attractors_count(a), 0);
+    assert_int_equal(vn_network_count(network), 8);
+    assert_int_equal(vn_network_join_count(network), 1);
+    int32_t end, junction;
+    double radius;
+    vn_network_join_ends(network, 0, &end, &junction, &radius);
+    assert_true(vn_network_x(network)[junction] == 0 && vn_network_y(network)[junction] == 0);
+    assert_true(vn_network_x(network)[end] == 1);
+    assert_true(vn_network_x(network)[vn_network_parent(network)[junction]] == -1);
+    vn_influence_destroy(influence);
+    vn_attractors_destroy(a);
+    vn_network_destroy(network);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(relative_neighbors_are_what_the_definition_says),
+        cmocka_unit_test(golden_neighbors),
+        cmocka_unit_test(golden_meeting),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
