@@ -36,6 +36,15 @@ enum {
     VN_GHOST = 16,  ///< a member no more; kept until the step is over, for its children to ask
 };
 
+/// Nodes that keep most new ones from becoming neighbors of an attractor: its nearest neighbor, and what was
+/// found in its lunes.
+enum { VN_GUARDS = 4 };
+typedef struct vn_guards {
+    double farthest2; ///< no neighbor is farther
+    int32_t node[VN_GUARDS];
+    int32_t turn; ///< which of them gives way next
+} vn_guards;
+
 /// The stages of an attractor that draws several veins.
 enum {
     VN_FREE = 0,
@@ -73,12 +82,13 @@ struct vn_attractors {
     int mode;
     VN_ARRAY(int32_t) first_tie;
     VN_ARRAY(uint8_t) stage;
+    VN_ARRAY(vn_guards) guards;
     VN_ARRAY(vn_tie) ties;       ///< of all attractors, in lists
     int32_t free_tie;            ///< the first of those not in use, or -1
     VN_ARRAY(int32_t) touched;   ///< attractors that were reached and wait for other veins
     VN_ARRAY(int32_t) outdated;  ///< whose Urquhart neighbors have to be found anew
     vn_indices candidates;       ///< working memory
-    VN_ARRAY(vn_reach_hit) near_nodes;
+    vn_found_array near_nodes;
     int32_t minded_step;         ///< the network's step of the last look at the touched ones
     bool tagging;                ///< touched ones wait for tagged veins, rather than for all
 
@@ -149,10 +159,12 @@ vn_status vn_ties_prepare(vn_attractors *a);
 /// Turn all ties into ghosts: V(s) is to be found anew, and veins keep their tags.
 void vn_ties_forget(vn_attractors *a);
 void vn_ties_drop(vn_attractors *a, int32_t i);
-void vn_ties_drop_ghosts(vn_attractors *a, int32_t i);
+void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i);
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);
 /// Find V(s) of attractor @p i among all nodes.
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
+/// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
+bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3], double d2);
 /// A new node is at squared distance @p d2 of attractor @p i.
 vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2);
 /// Find anew what new nodes have outdated.

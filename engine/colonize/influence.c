@@ -79,7 +79,7 @@ static vn_status list_ties(vn_influence *influence, int32_t i, double within2) {
     int32_t begin = influence->node.count;
     double p[3], q[3];
     vn_points_get(&points, i, p);
-    vn_ties_drop_ghosts(a, i);
+    vn_ties_drop_ghosts(a, influence->network, i);
     for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
         int32_t node = a->ties.data[tie].node;
         vn_network_position(influence->network, node, q);

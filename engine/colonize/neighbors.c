@@ -8,6 +8,8 @@
 
 #include "colonize/attractors.h"
 
+#include <stdlib.h>
+
 // Which of a and b is nearer to p; in doubles where that decides, or else exactly.
 static int compare(const double p[3], const double a[3], const double b[3]) {
     double da = vn_distance2(p, a), db = vn_distance2(p, b);
@@ -31,6 +33,13 @@ static void place_of(const vn_attractors *a, int32_t i, double p[3]) {
     vn_points_get(&points, i, p);
 }
 
+static double distance2_of(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node) {
+    double s[3];
+    vn_points nodes = vn_network_points(network);
+    place_of(a, i, s);
+    return vn_points_distance2(&nodes, node, s);
+}
+
 static int32_t take_tie(vn_attractors *a) {
     int32_t tie = a->free_tie;
     if (tie >= 0) {
@@ -46,14 +55,50 @@ static void give_back(vn_attractors *a, int32_t tie) {
     a->free_tie = tie;
 }
 
+static const vn_guards no_guards = {.node = {-1, -1, -1, -1}};
+
 vn_status vn_ties_prepare(vn_attractors *a) {
     VN_TRY(vn_array_reserve(&a->first_tie, a->x.count));
     VN_TRY(vn_array_reserve(&a->stage, a->x.count));
-    for (; a->first_tie.count < a->x.count; a->first_tie.count++, a->stage.count++) {
-        a->first_tie.data[a->first_tie.count] = -1;
-        a->stage.data[a->stage.count] = VN_FREE;
+    VN_TRY(vn_array_reserve(&a->guards, a->x.count));
+    for (int32_t i = a->first_tie.count; i < a->x.count; i++) {
+        a->first_tie.data[i] = -1;
+        a->stage.data[i] = VN_FREE;
+        a->guards.data[i] = no_guards;
     }
+    a->first_tie.count = a->stage.count = a->guards.count = a->x.count;
     return VN_OK;
+}
+
+// A guard is certain, whatever doubles do to the last bits; what they cannot tell is decided by push_in().
+static const double SURE = 1 - 1e-12;
+
+bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3], double d2) {
+    const vn_guards *guards = &a->guards.data[i];
+    vn_points points = vn_attractors_points(a);
+    vn_points nodes = vn_network_points(network);
+    if (a->mode != VN_RELATIVE || d2 <= guards->farthest2) {
+        return false; // it might drive a neighbor out
+    }
+    for (int k = 0; k < VN_GUARDS && guards->node[k] >= 0; k++) {
+        int32_t w = guards->node[k];
+        double q[3];
+        vn_points_get(&nodes, w, q);
+        if (vn_distance2(q, u) < SURE * d2 && vn_points_distance2(&points, i, q) < SURE * d2) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The first guard is the nearest neighbor, the others take turns.
+static void post_guard(vn_guards *guards, int32_t node, bool nearest) {
+    if (nearest) {
+        guards->node[0] = node;
+    } else {
+        guards->turn = guards->turn % (VN_GUARDS - 1) + 1;
+        guards->node[guards->turn] = node;
+    }
 }
 
 void vn_ties_drop(vn_attractors *a, int32_t i) {
@@ -68,21 +113,25 @@ void vn_ties_drop(vn_attractors *a, int32_t i) {
     a->first_tie.data[i] = -1;
 }
 
-void vn_ties_drop_ghosts(vn_attractors *a, int32_t i) {
+void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i) {
     int32_t *link = &a->first_tie.data[i];
+    double farthest2 = 0;
     while (*link >= 0) {
         int32_t tie = *link;
         if (a->ties.data[tie].state & VN_GHOST) {
             *link = a->ties.data[tie].next;
             give_back(a, tie);
         } else {
+            farthest2 = fmax(farthest2, distance2_of(a, network, i, a->ties.data[tie].node));
             link = &a->ties.data[tie].next;
         }
     }
+    a->guards.data[i].farthest2 = farthest2;
 }
 
 void vn_ties_forget(vn_attractors *a) {
     for (int32_t i = 0; i < a->first_tie.count; i++) {
+        a->guards.data[i] = no_guards;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
         }
@@ -99,6 +148,7 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
         a->first_tie.data[from] = -1;
         a->first_tie.data[to] = first;
         a->stage.data[to] = a->stage.data[from];
+        a->guards.data[to] = a->guards.data[from];
     }
 }
 
@@ -149,6 +199,9 @@ static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i,
     if (a->node.data[i] < 0) {
         VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
     }
+    vn_guards *guards = &a->guards.data[i];
+    post_guard(guards, node, guards->node[0] < 0 || d2 < distance2_of(a, network, i, guards->node[0]));
+    guards->farthest2 = fmax(guards->farthest2, d2);
     made.next = a->first_tie.data[i];
     a->ties.data[tie] = made;
     a->first_tie.data[i] = tie;
@@ -156,16 +209,27 @@ static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i,
     return vn_attractors_note_fresh(a, i, d2);
 }
 
+typedef struct lune_search {
+    const vn_network *network;
+    int32_t found;
+} lune_search;
+
 static bool is_in_lune(int32_t node, const vn_lune *lune, void *payload) {
+    lune_search *search = payload;
     double u[3];
-    vn_network_position(payload, node, u);
-    return excludes(u, lune->v, lune->s);
+    vn_network_position(search->network, node, u);
+    bool is_in = excludes(u, lune->v, lune->s);
+    search->found = is_in ? node : -1;
+    return is_in;
 }
 
-static bool lune_is_empty(const vn_network *network, const double s[3], const double v[3]) {
+// Some node in the lune, or -1.
+static int32_t find_in_lune(const vn_network *network, const double s[3], const double v[3]) {
+    lune_search search = {network, -1};
     vn_lune lune = {{s[0], s[1], s[2]}, {v[0], v[1], v[2]}};
     vn_points nodes = vn_network_points(network);
-    return !vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, &lune, is_in_lune, (void *)network);
+    vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, &lune, is_in_lune, &search);
+    return search.found;
 }
 
 static bool is_tie(const vn_attractors *a, int32_t i, int32_t node) {
@@ -177,40 +241,24 @@ static bool is_tie(const vn_attractors *a, int32_t i, int32_t node) {
     return false;
 }
 
-// The nodes among which V(s) is: all while they are few, the corners of the conflict hole later.
-static vn_status find_candidates(vn_attractors *a, vn_network *network, const double s[3], double *reach) {
-    enum { FEW = 48 };
-    *reach = INFINITY;
-    if (network->x.count <= FEW) {
-        VN_TRY(vn_array_reserve(&a->candidates, network->x.count));
-        a->candidates.count = network->x.count;
-        for (int32_t k = 0; k < network->x.count; k++) {
-            a->candidates.data[k] = k;
-        }
-        return VN_OK;
-    }
+// The corners of the conflict hole, in place of what is around.
+static vn_status find_hole(vn_attractors *a, vn_network *network, const double s[3], double *circumradius) {
     vn_delaunay *delaunay;
+    int32_t near = a->near_nodes.count > 0 ? a->near_nodes.data[0].point : -1;
     VN_TRY(vn_network_delaunay(network, &delaunay));
-    vn_points nodes = vn_network_points(network);
-    vn_nearest near = {.reach2 = INFINITY};
-    vn_point_grid_nearest(&network->grid, &nodes, s, &near);
-    return vn_delaunay_neighbors(delaunay, s, near.point, &a->candidates, reach);
-}
-
-static vn_status sort_candidates(vn_attractors *a, const vn_network *network, const double s[3]) {
+    VN_TRY(vn_delaunay_neighbors(delaunay, s, near, &a->candidates, circumradius));
     VN_TRY(vn_array_reserve(&a->near_nodes, a->candidates.count));
     vn_points nodes = vn_network_points(network);
-    int32_t count = 0;
+    a->near_nodes.count = 0;
     for (int32_t k = 0; k < a->candidates.count; k++) {
         int32_t node = a->candidates.data[k];
         double d2 = vn_points_distance2(&nodes, node, s);
-        int32_t at = count++;
+        int32_t at = a->near_nodes.count++;
         for (; at > 0 && a->near_nodes.data[at - 1].distance2 > d2; at--) {
             a->near_nodes.data[at] = a->near_nodes.data[at - 1];
         }
-        a->near_nodes.data[at] = (vn_reach_hit){node, d2};
+        a->near_nodes.data[at] = (vn_found){node, d2};
     }
-    a->near_nodes.count = count;
     return VN_OK;
 }
 
@@ -219,7 +267,7 @@ static vn_status sort_candidates(vn_attractors *a, const vn_network *network, co
 static bool is_excluded_among(const vn_attractors *a, const vn_network *network, int32_t k,
                               const double s[3]) {
     double u[3], v[3];
-    const vn_reach_hit *hits = a->near_nodes.data;
+    const vn_found *hits = a->near_nodes.data;
     vn_network_position(network, hits[k].point, v);
     double last = hits[k].distance2 * (1 + 1e-14);
     for (int32_t j = 0; j < a->near_nodes.count && hits[j].distance2 <= last; j++) {
@@ -231,31 +279,77 @@ static bool is_excluded_among(const vn_attractors *a, const vn_network *network,
     return false;
 }
 
-static void set_interest(vn_attractors *a, int32_t i, double reach) {
-    double farthest = a->near_nodes.count > 0 ? a->near_nodes.data[a->near_nodes.count - 1].distance2 : 0;
-    // A node that pushes a corner out of the hole lies in one of the circles round it, which end at twice
-    // their radius.
-    double reach2 = a->mode == VN_URQUHART ? 4 * reach * reach : fmax(reach * reach, farthest);
-    a->near2.data[i] = fmin(reach2 * (1 + 1e-9), a->reach2);
+/// A direction in which something was found.
+typedef struct bearing {
+    double angle, x, y, distance;
+} bearing;
+
+static int by_angle(const void *left, const void *right) {
+    const bearing *a = left, *b = right;
+    return (a->angle > b->angle) - (a->angle < b->angle);
+}
+
+// How far from s a relative neighbor may be in the directions between two found points: a point hides what
+// is farther than itself up to 60° from its own direction, and beyond the bisector up to 90°.
+static double reach_between(const bearing *a, const bearing *b) {
+    double gap = b->angle - a->angle + (b->angle < a->angle ? 6.283185307179586 : 0);
+    double farther = fmax(a->distance, b->distance);
+    if (gap <= 2.09) {
+        return farther;
+    }
+    double area = fabs(a->x * b->y - a->y * b->x);
+    double sides = a->distance * b->distance * hypot(a->x - b->x, a->y - b->y);
+    return gap < 3.14 && area > 1e-9 * a->distance * b->distance ? fmax(farther, sides / (2 * area)) : INFINITY;
+}
+
+// How far from s a new node may be and still become a neighbor, or drive one out.
+static double interest_of(const vn_attractors *a, const vn_network *network, const double s[3]) {
+    enum { MOST = 64 };
+    bearing bearings[MOST];
+    double q[3], reach = 0;
+    int32_t count = a->near_nodes.count;
+    if (a->dim == 3 || count < 3 || count > MOST || a->near_nodes.data[0].distance2 == 0) {
+        return INFINITY;
+    }
+    for (int32_t k = 0; k < count; k++) {
+        vn_network_position(network, a->near_nodes.data[k].point, q);
+        double x = q[0] - s[0], y = q[1] - s[1];
+        bearings[k] = (bearing){atan2(y, x), x, y, sqrt(a->near_nodes.data[k].distance2)};
+    }
+    qsort(bearings, (size_t)count, sizeof *bearings, by_angle);
+    for (int32_t k = 0; k < count; k++) {
+        reach = fmax(reach, reach_between(&bearings[k], &bearings[(k + 1) % count]));
+    }
+    return reach;
+}
+
+static vn_status find_around(vn_attractors *a, vn_network *network, int32_t i, const double s[3]) {
+    const vn_point_tree *tree;
+    vn_points nodes = vn_network_points(network);
+    double reach;
+    VN_TRY(vn_network_tree_of_points(network, &tree));
+    VN_TRY(vn_point_tree_around(tree, &nodes, s, a->reach2, &a->near_nodes));
+    if (a->mode == VN_RELATIVE) {
+        reach = interest_of(a, network, s);
+    } else {
+        VN_TRY(find_hole(a, network, s, &reach));
+        reach *= 2; // what pushes a corner out of the hole is in one of the circles round it
+    }
+    a->near2.data[i] = fmin(reach * reach * (1 + 1e-6), a->reach2);
+    return VN_OK;
 }
 
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {
-    double s[3], v[3], reach;
-    const vn_point_grid *grid;
-    const vn_point_tree *tree;
+    double s[3], v[3];
     place_of(a, i, s);
-    VN_TRY(vn_network_grid(network, 0, &grid));
-    VN_TRY(vn_network_tree_of_points(network, &tree));
-    VN_TRY(find_candidates(a, network, s, &reach));
-    VN_TRY(sort_candidates(a, network, s));
-    set_interest(a, i, reach);
+    VN_TRY(find_around(a, network, i, s));
     // Farthest first, so that the nearest becomes the head of the list, where it is asked first.
     for (int32_t k = a->near_nodes.count - 1; k >= 0; k--) {
-        vn_reach_hit hit = a->near_nodes.data[k];
-        vn_network_position(network, hit.point, v);
-        if (hit.distance2 <= a->reach2 && !is_excluded_among(a, network, k, s) &&
-            (a->mode == VN_URQUHART || lune_is_empty(network, s, v)) && !is_tie(a, i, hit.point)) {
-            VN_TRY(add_tie(a, network, i, hit.point, hit.distance2));
+        vn_found found = a->near_nodes.data[k];
+        vn_network_position(network, found.point, v);
+        if (found.distance2 <= a->reach2 && !is_excluded_among(a, network, k, s) &&
+            (a->mode == VN_URQUHART || find_in_lune(network, s, v) < 0) && !is_tie(a, i, found.point)) {
+            VN_TRY(add_tie(a, network, i, found.point, found.distance2));
         }
     }
     return VN_OK;
@@ -290,7 +384,12 @@ vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, i
     }
     place_of(a, i, s);
     vn_network_position(network, node, u);
-    if (!push_in(a, network, i, u, s) || !lune_is_empty(network, s, u) || is_tie(a, i, node)) {
+    if (!push_in(a, network, i, u, s) || is_tie(a, i, node)) {
+        return VN_OK;
+    }
+    int32_t between = find_in_lune(network, s, u);
+    if (between >= 0) {
+        post_guard(&a->guards.data[i], between, false);
         return VN_OK;
     }
     return add_tie(a, network, i, node, d2);

@@ -34,4 +34,16 @@ typedef bool vn_point_test_fn(int32_t point, const vn_lune *lune, void *payload)
 bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *points, const vn_lune *lune,
                                vn_point_test_fn *test, void *payload);
 
+/// A point found, and its squared distance.
+typedef struct vn_found {
+    int32_t point;
+    double distance2;
+} vn_found;
+typedef VN_ARRAY(vn_found) vn_found_array;
+
+/// The points that may be relative neighbors of @p p (READINGS R4), by growing distance up to √reach2: each that
+/// is not certainly excluded by another. Some that are excluded by points in between are among them.
+vn_status vn_point_tree_around(const vn_point_tree *tree, const vn_points *points, const double p[3],
+                               double reach2, vn_found_array *found);
+
 #endif
