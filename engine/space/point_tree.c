@@ -137,6 +137,14 @@ typedef struct lune_query {
     void *payload;
 } lune_query;
 
+static place child_place(const place *at, int dim, int child) {
+    place below = {{at->low[0], at->low[1], at->low[2]}, 0.5 * at->size};
+    for (int k = 0; k < dim; k++) {
+        below.low[k] += child >> k & 1 ? below.size : 0;
+    }
+    return below;
+}
+
 static double distance2_to(const place *at, int dim, const double p[3]) {
     double sum = 0;
     for (int k = 0; k < dim; k++) {
@@ -158,26 +166,23 @@ static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
     return false;
 }
 
+static bool overlaps(const lune_query *q, const place *at) {
+    int dim = q->tree->dim;
+    return distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
+}
+
 // NOLINTNEXTLINE(misc-no-recursion): no deeper than DEEPEST below the root, and that by doubling alone
 static bool any_below(const lune_query *q, int32_t cell, const place *at) {
     const vn_tree_cell *here = &q->tree->cells.data[cell];
     int dim = q->tree->dim;
-    if (distance2_to(at, dim, q->lune->s) > q->width2 || distance2_to(at, dim, q->lune->v) > q->width2) {
-        return false;
-    }
     if (here->children < 0) {
         return any_in_leaf(q, here);
     }
     for (int c = 0; c < 1 << dim; c++) {
         const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
-        if (child->children < 0 && child->count == 0) {
-            continue;
-        }
-        place below = {{at->low[0], at->low[1], at->low[2]}, 0.5 * at->size};
-        for (int k = 0; k < dim; k++) {
-            below.low[k] += c >> k & 1 ? below.size : 0;
-        }
-        if (any_below(q, here->children + c, &below)) {
+        bool empty = child->children < 0 && child->count == 0;
+        place below = child_place(at, dim, c);
+        if (!empty && overlaps(q, &below) && any_below(q, here->children + c, &below)) {
             return true;
         }
     }
@@ -277,10 +282,7 @@ static vn_status find_below(const around_query *q, int32_t cell, const place *at
     int first = octant(dim, &nearest, q->p);
     for (int c = 0; c < 1 << dim; c++) {
         int child = c ^ first; // those that share a side with the first come before the one across
-        place below = {{at->low[0], at->low[1], at->low[2]}, 0.5 * at->size};
-        for (int k = 0; k < dim; k++) {
-            below.low[k] += child >> k & 1 ? below.size : 0;
-        }
+        place below = child_place(at, dim, child);
         VN_TRY(find_below(q, here->children + child, &below));
     }
     return VN_OK;
