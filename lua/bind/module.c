@@ -197,6 +197,7 @@ int luaopen_venule(lua_State *L) {
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.module");
     preload_embedded(L);
     merge_embedded(L, "venule.scenario");
+    merge_embedded(L, "venule.leaf");
     merge_embedded(L, "venule.venation");
     make_strict(L, "venule");
     return 1;

@@ -234,7 +234,7 @@ static void write_lua_part(lua_State *L, const char *field, FILE *file) {
 static void write_all(writer *w, lua_State *L) {
     fputs(
         "---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
-        "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}}\n\n"
+        "---@class venule\n---@field version string\nlocal venule = {domain = {}, growth = {}, leaf = {}}\n\n"
         "---@class venule.Bounds\n---@field min number[]\n---@field max number[]\n---@field unit? string\n\n"
         "---@class venule.Measures\n---@field nodes integer\n---@field roots integer\n---@field tips "
         "integer\n"

@@ -20,6 +20,18 @@ local functions = {
     .. "`s.attractors`. The loop is plain Lua in lua/venule/venation.lua; copy it when an option is not enough."},
 }
 
+local leaf_functions = {
+  {name = "leaf.outline", arguments = "shape, options", types = {shape = "string", ["options?"] = "table"}, returns = "number[][]", doc =
+    "The points {{x, y}, …} of a shape's outline, counterclockwise from the petiole: `venule.leaf.outline(\"fan\", {notch = 0})`."},
+  {name = "leaf.teeth", arguments = "points, waves", types = {points = "number[][]", waves = "number[][]"}, returns = "number[][]", doc =
+    "Teeth upon an outline whose first point is the petiole and whose highest is the tip: sums of triangular waves {{count, depth, skew}, …} "
+    .. "(Runions §3.2). `count` teeth at each side, `depth` of the outline's length, `skew` (0.5) where a tooth is highest. Where the "
+    .. "petiole saw the whole margin it still does: what a tooth would hide is cut off. Another outline may come to cross itself."},
+  {name = "leaf.base", arguments = "blade, n", types = {blade = "venule.Domain|venule.Growth", n = "integer"}, returns = "number[][]", doc =
+    "n seed points {{x, y}, …} just inside the blade: evenly along its base, for parallel veins; where the blade hangs below its "
+    .. "petiole, on a small arc about that."},
+}
+
 local function range_of(row)
   if row.above then return ("above %g"):format(row.above) end
   if row.min and row.max then return ("%g to %g"):format(row.min, row.max) end
@@ -32,13 +44,21 @@ local function type_of(row)
   return name == "userdata" and "any" or name
 end
 
+local function in_braces(value)
+  if type(value) ~= "table" then return tostring(value) end
+  local parts = {}
+  for i, item in ipairs(value) do parts[i] = in_braces(item) end
+  return "{" .. table.concat(parts, ", ") .. "}"
+end
+
 local stubs, page = {}, {}
 
 local function write_rows(name, rows)
   stubs[#stubs + 1] = ("---@class (exact) venule.%s.Options\n"):format(name)
   page[#page + 1] = "\n| option | type | default | range | unit | |\n|---|---|---|---|---|---|\n"
   for _, row in ipairs(rows) do
-    local default = row[2] == nil and "" or (type(row[2]) == "string" and '"%s"' or "%s"):format(tostring(row[2]))
+    local default = row[2] == nil and "" or type(row[2]) == "table" and in_braces(row[2])
+      or (type(row[2]) == "string" and '"%s"' or "%s"):format(tostring(row[2]))
     stubs[#stubs + 1] = ("---@field %s%s %s # %s\n"):format(row[1], row.required and "" or "?", type_of(row), row.doc)
     page[#page + 1] = ("| `%s` | %s | %s | %s | %s | %s |\n"):format(row[1], (type_of(row):gsub("|", " or ")),
       row.required and "required" or default, range_of(row), row.unit or "", row.doc)
@@ -46,14 +66,30 @@ local function write_rows(name, rows)
   stubs[#stubs + 1] = "\n"
 end
 
-for _, f in ipairs(functions) do
+local function write_function(f)
   page[#page + 1] = ("\n### `venule.%s%s`\n\n%s\n"):format(f.name, f.rows and "{…}" or "(" .. f.arguments .. ")", f.doc)
-  if f.rows then write_rows(f.rows, venule[f.rows .. "_rows"]) end
+  if f.rows then write_rows(f.rows, f.list or venule[f.rows .. "_rows"]) end
   stubs[#stubs + 1] = "---" .. f.doc .. "\n"
-  for name, kind in pairs(f.types) do stubs[#stubs + 1] = ("---@param %s %s\n"):format(name, kind) end
+  for name in f.arguments:gmatch "%w+" do
+    local optional = f.types[name] and "" or "?"
+    stubs[#stubs + 1] = ("---@param %s%s %s\n"):format(name, optional, f.types[name .. optional])
+  end
   if f.returns then stubs[#stubs + 1] = "---@return " .. f.returns .. "\n" end
   stubs[#stubs + 1] = ("function venule.%s(%s) end\n\n"):format(f.name, f.arguments)
 end
+
+for _, f in ipairs(functions) do write_function(f) end
+
+page[#page + 1] = "\n## venule.leaf\n\nBlades with their petiole at (0, 0) and their tip at (0, length). All but `lobed` are "
+  .. "star-shaped about the petiole: `venule.growth.marginal {domain = …, origin = {0, 0}}` takes them.\n"
+for _, name in ipairs(venule.leaf_names) do
+  local found = venule.leaf_shapes[name]
+  write_function {
+    name = "leaf." .. name, arguments = "options", types = {["options?"] = ("venule.leaf.%s.Options"):format(name)},
+    rows = "leaf." .. name, list = found.rows, returns = "venule.Domain", doc = found.doc,
+  }
+end
+for _, f in ipairs(leaf_functions) do write_function(f) end
 
 stubs[#stubs + 1] = [[
 ---@class venule.Venation
