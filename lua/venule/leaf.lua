@@ -63,7 +63,7 @@ end
 -- Half of r(angle), angles in radians from `from` to the tip at a right angle; scaled to its length, and to a width if given.
 local function polar(o, from, radius, axes)
   local angles, half, widest = {}, {{0, 0}}, 0
-  for i = 1, SAMPLES do angles[i] = from + (PI / 2 - from) * spaced(i, SAMPLES) end
+  for i = 1, 2 * SAMPLES do angles[i] = from + (PI / 2 - from) * spaced(i, 2 * SAMPLES) end
   for _, axis in ipairs(axes or {}) do
     if axis > from and axis < PI / 2 then angles[#angles + 1] = axis end
   end
@@ -115,7 +115,7 @@ end
 local function palm(o)
   check_odd("digitate", o.count)
   local gap, middle = math.rad(o.spread) / (o.count - 1), (o.count - 1) / 2
-  local steepness, sharp = -2 * math.log(o.sinus) / gap, 14
+  local steepness, sharp = -2 * math.log(o.sinus) / gap, 10 -- the less sharp, the rounder the bays
   local function radius(angle)
     local sum = 0
     for k = -middle, middle do
@@ -149,9 +149,9 @@ local function ginkgo(o)
   local half = math.rad(o.spread) / 2
   return polar(o, PI / 2 - half, function(angle)
     local turned = (PI / 2 - angle) / half
-    local body = (1 - turned ^ 9) ^ 0.4 * (1 - 0.12 * turned ^ 2)
+    local body = (1 - turned ^ 7) ^ 0.5
     local wave = 1 + o.wave * math.cos(9 * PI * turned) * (1 - turned)
-    return body * wave * (1 - o.notch * math.exp(-(turned / 0.07) ^ 2))
+    return body * wave * (1 - o.notch * math.exp(-(turned / 0.06) ^ 2))
   end)
 end
 
@@ -202,7 +202,7 @@ end
 shape("entire", "A blade with a smooth margin, from linear to round, ovate to obovate.", simple,
   outline_rows(0.5, 0.42, "acute", "rounded"))
 shape("toothed", "The same with a toothed margin: small teeth upon large ones.", simple,
-  outline_rows(0.6, 0.38, "acuminate", "rounded", {{8, 0.024, 0.65}, {32, 0.009, 0.65}}))
+  outline_rows(0.6, 0.38, "acuminate", "rounded", {{9, 0.014, 0.6}, {36, 0.007, 0.6}}))
 shape("poplar", "A blade broad at its foot with a drawn-out tip and small blunt teeth.", simple,
   outline_rows(0.85, 0.27, "acuminate", "truncate", {{24, 0.01, 0.6}}))
 shape("orchid", "A lance-shaped blade of parallel veins.", simple, outline_rows(0.26, 0.45, "acute", "cuneate"))
@@ -236,7 +236,7 @@ shape("reniform", "Kidney-shaped to round, with shallow round lobes: lady's mant
 })
 shape("fan", "A fan with straight sides and a notch at its top: ginkgo. Its length is that of the halves.", ginkgo, {
   length, width "as the fan opens",
-  {"spread", 150, type = "number", min = 40, max = 300, unit = "degrees", doc = "between the two sides"},
+  {"spread", 130, type = "number", min = 40, max = 300, unit = "degrees", doc = "between the two sides"},
   share("notch", 0.2, 0, 0.8, "depth of the notch, of the length"),
   share("wave", 0.015, 0, 0.1, "height of the waves of the margin, of the length"), teeth,
 })
