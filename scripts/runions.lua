@@ -41,11 +41,11 @@ end
 
 local ovate = leaf.entire {width = 0.8, widest = 0.32, tip = "acute"}
 local rows = {
-  -- pattern, kill distance, birth distance, growth (L_i, L_f, ΔL), darts · 10⁶, blade; seeds: a row of them, where not one
+  -- pattern, kill distance, birth distance, growth (L_i, L_f, ΔL), darts · 10⁶, blade
   ["search-kill-distance"] = {"closed", 10, 10, marginal(270, 1600, 8), 600, ovate},   -- d_k is what varies
   ["search-density"] = {"closed", 1, 10, marginal(270, 1600, 8), 300, ovate},          -- ρ is what varies
   ["slow-marginal"] = {"open", 40, 1, slow(4500, 112000, 34), 300, ovate},             -- "similar to Figure 9b"
-  ginkgo = {"open", 100, 1, slow(10, 50000, 15), 300, leaf.fan {}},                    -- "rounded, tangentially expanding"
+  ginkgo = {"open", 100, 1, slow(10, 50000, 15), 300, leaf.fan {}, midvein = 0.006},   -- "rounded, tangentially expanding"
   alchemilla = {"open", 10, 1, marginal(3200, 4500, 9), 200, leaf.reniform {teeth = {{46, 0.012, 0.6}}}},
   sweetgum = {"open", 1, 1, marginal(1200, 6700, 7), 200, leaf.digitate {}},           -- five pointed lobes
   toothed = {"closed", 1, 10, marginal(6600, 26000, 40), 10, with_lobe()},             -- "a toothed leaf with a lobe"
@@ -53,7 +53,8 @@ local rows = {
   orchid = {"closed", 1, 10, none, 600, leaf.orchid {length = 6500}},
   reticulate = {"closed", 1, 15, isogonic(225, 4500, 40.5), 200, leaf.entire {width = 0.45}},
   cherry = {"open", 30, 1, marginal(1100, 5500, 11), 40, leaf.toothed {width = 0.5, widest = 0.5, base = "cuneate", teeth = {{26, 0.012, 0.65}}}},
-  grass = {"closed", 1, 30, none, 100, leaf.linear {length = 13000, width = 600, taper = 0.05}, seeds = 20}, -- a segment
+  grass = {"closed", 1, 30, none, 100, leaf.linear {length = 13000, width = 600, taper = 0.05}, seeds = 20,
+    midvein = 0.0006, part = {0.3, 0.4}}, -- "a segment of a grass leaf", and "a row of initial vein nodes"
   poplar = {"closed", 1, 2, isogonic(115, 3500, 9), 200, leaf.poplar {}},
   developmental = {"closed", 1, 3, developmental(100), 5000, leaf.entire {length = 23, width = 6}, exponent = 3},
   trillium = {"closed", 1, 30, none, 100, leaf.petal {length = 4500}},
@@ -68,7 +69,7 @@ local p = venule.param {
   {"kill_distance", 0, min = 0, max = 200, help = "a vein this close consumes its source; 0: the table's"},
   {"darts", 0, min = 0, max = 1e5, unit = "darts/length² · 1e-6", help = "sources that are tried per area; 0: the table's"},
   {"neighborhood", "relative", choices = {"relative", "urquhart"}, help = "of closed patterns; Figure 18 compares them"},
-  {"midvein", 0.01, min = 0.001, max = 0.1, help = "its width, of the blade's length"},
+  {"midvein", 0, min = 0, max = 0.1, help = "its width, of the blade's length; 0: the row's, or 0.01"},
   {"size", 1000, min = 50, max = 8000, unit = "pixels", help = "of the picture's longer side"},
 }
 
@@ -89,21 +90,26 @@ system:run()
 
 -- At exponent 2 a midvein is √tips as wide as a tip: choose the tip's width by the midvein's (READINGS R7).
 local veins, bounds = system.network, blade:bounds()
-local length, breadth = bounds.max[2] - bounds.min[2], bounds.max[1] - bounds.min[1]
-local exponent = row.exponent or 2
+local length = bounds.max[2] - bounds.min[2]
+local exponent, midvein = row.exponent or 2, p.midvein > 0 and p.midvein or row.midvein or 0.01
 veins:murray {exponent = exponent, tip_radius = 1}
-veins:murray {exponent = exponent, tip_radius = p.midvein / 2 * length / veins:measure().max_radius}
+veins:murray {exponent = exponent, tip_radius = midvein / 2 * length / veins:measure().max_radius}
 veins:orders "hickey"
+
+if row.part then -- of the blade's length is in the picture
+  bounds = {min = {bounds.min[1], row.part[1] * length}, max = {bounds.max[1], row.part[2] * length}}
+end
+local is_wide = bounds.max[1] - bounds.min[1] > bounds.max[2] - bounds.min[2]
 
 venule.result {
   network = veins,
-  width = breadth > length and p.size or nil,
-  height = breadth <= length and p.size or nil,
+  width = is_wide and p.size or nil,
+  height = not is_wide and p.size or nil,
   view = bounds,
   margin = 24,
   background = "#fdfcf7",
   picture = function(page)
-    page:fill(blade, {color = "#dfe9c8", stroke = "#8aa36a", line_width = 0.002 * length})
+    page:fill(blade, {color = "#dfe9c8", stroke = "#8aa36a", line_width = 2 / page.scale})
     page:stroke(veins, {color = "#3d5c2b", min_width = 0.5})
   end,
 }

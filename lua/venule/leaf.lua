@@ -237,7 +237,7 @@ shape("reniform", "Kidney-shaped to round, with shallow round lobes: lady's mant
 shape("fan", "A fan with straight sides and a notch at its top: ginkgo. Its length is that of the halves.", ginkgo, {
   length, width "as the fan opens",
   {"spread", 130, type = "number", min = 40, max = 300, unit = "degrees", doc = "between the two sides"},
-  share("notch", 0.2, 0, 0.8, "depth of the notch, of the length"),
+  share("notch", 0.15, 0, 0.8, "depth of the notch, of the length"),
   share("wave", 0.015, 0, 0.1, "height of the waves of the margin, of the length"), teeth,
 })
 shape("lobed", "Lobes off a midrib: oak. Not star-shaped, so not a shape for growth.marginal.", oak, {
