@@ -19,13 +19,13 @@ end
 
 local function none(blade) return growth.none {domain = blade} end
 
--- From narrow to nearly round (Figure 5): eight times longer, most at the base; sixteen times wider, most above it.
+-- From narrow to nearly round, as in figures/figure5.lua: eight times longer, most of it at the base, and wider still.
 local function developmental(steps)
   return function(blade)
     return growth.rerg {
       domain = blade, steps = steps,
-      x = function(y) return (16 - 6 * y / 23) ^ (1 / steps) end,
-      y = function(y) return (8 * (1.3 - 0.6 * y / 23)) ^ (1 / steps) end,
+      x = function(y) return (14 + 12 * math.exp(-((y / 23 - 0.15) / 0.4) ^ 2)) ^ (1 / steps) end,
+      y = function(y) return (6 + 6 * (1 - y / 23) ^ 2) ^ (1 / steps) end,
     }
   end
 end
@@ -56,7 +56,7 @@ local rows = {
   grass = {"closed", 1, 30, none, 100, leaf.linear {length = 13000, width = 600, taper = 0.05}, seeds = 20,
     midvein = 0.0006, part = {0.3, 0.4}}, -- "a segment of a grass leaf", and "a row of initial vein nodes"
   poplar = {"closed", 1, 2, isogonic(115, 3500, 9), 200, leaf.poplar {}},
-  developmental = {"closed", 1, 3, developmental(100), 5000, leaf.entire {length = 23, width = 6}, exponent = 3},
+  developmental = {"closed", 1, 3, developmental(100), 5000, leaf.entire {length = 23, width = 6, tip = "rounded"}, exponent = 3},
   trillium = {"closed", 1, 30, none, 100, leaf.petal {length = 4500}},
 }
 
