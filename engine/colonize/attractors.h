@@ -83,16 +83,16 @@ struct vn_attractors {
     VN_ARRAY(int32_t) first_tie;
     VN_ARRAY(uint8_t) stage;
     VN_ARRAY(vn_guards) guards;
-    VN_ARRAY(vn_tie) ties;       ///< of all attractors, in lists
-    int32_t free_tie;            ///< the first of those not in use, or -1
-    VN_ARRAY(int32_t) touched;   ///< attractors that were reached and wait for other veins
-    VN_ARRAY(int32_t) outdated;  ///< whose Urquhart neighbors have to be found anew
-    vn_indices candidates;       ///< working memory
+    VN_ARRAY(vn_tie) ties;      ///< of all attractors, in lists
+    int32_t free_tie;           ///< the first of those not in use, or -1
+    VN_ARRAY(int32_t) touched;  ///< attractors that were reached and wait for other veins
+    VN_ARRAY(int32_t) outdated; ///< whose Urquhart neighbors have to be found anew
+    vn_indices candidates;      ///< working memory
     vn_found_array near_nodes;
-    int32_t minded_step;         ///< the network's step of the last look at the touched ones
-    bool tagging;                ///< touched ones wait for tagged veins, rather than for all
+    int32_t minded_step; ///< the network's step of the last look at the touched ones
+    bool tagging;        ///< touched ones wait for tagged veins, rather than for all
 
-    vn_extend_def last;          ///< how the veins grow; its domain is held
+    vn_extend_def last; ///< how the veins grow; its domain is held
 
     // What the remembered nodes were taken from.
     uint64_t network_serial, network_moved;
@@ -164,7 +164,8 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);
 /// Find V(s) of attractor @p i among all nodes.
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
 /// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
-bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3], double d2);
+bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
+                      double d2);
 /// A new node is at squared distance @p d2 of attractor @p i.
 vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2);
 /// Find anew what new nodes have outdated.

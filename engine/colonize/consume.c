@@ -6,7 +6,8 @@ static const vn_field consume_fields[] = {
     {"distance", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_consume_def, distance), 0, VN_HUGE, "length",
      NULL, "kill distance: an attractor that a node is closer to is consumed"},
     {"mode", VN_CHOICE, 0, offsetof(vn_consume_def, mode), 0, 0, "", "any|all|tagged",
-     "which nodes must be that close: any one (open venation, Runions §3.3), all that it influences (Webb), or "
+     "which nodes must be that close: any one (open venation, Runions §3.3), all that it influences (Webb), "
+     "or "
      "all whose veins it influenced when the first one came (closed venation, §4)"},
     {"into", VN_OBJECT, 0, offsetof(vn_consume_def, into), 0, 0, "", "attractors",
      "a set that the consumed ones are added to"},

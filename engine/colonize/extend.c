@@ -12,7 +12,8 @@ static const vn_field extend_fields[] = {
     {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
      "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
     {"meet", VN_CHOICE, 0, offsetof(vn_extend_def, meet), 0, 0, "", "cross|join",
-     "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to "
+     "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined "
+     "to "
      "it (in 2D)"},
 };
 const vn_schema vn_extend_schema =
@@ -329,8 +330,8 @@ static void note_hidden(const extension *e, bool inside) {
     }
 }
 
-// Where an attractor draws several veins its patience is renewed by any that comes nearer (vn_ties_show). What
-// waits for tagged veins is minded by vn_touch().
+// Where an attractor draws several veins its patience is renewed by any that comes nearer (vn_ties_show).
+// What waits for tagged veins is minded by vn_touch().
 static void count_idle_steps(const extension *e) {
     vn_attractors *a = e->a;
     const vn_influence *influence = e->influence;

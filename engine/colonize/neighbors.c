@@ -73,7 +73,8 @@ vn_status vn_ties_prepare(vn_attractors *a) {
 // A guard is certain, whatever doubles do to the last bits; what they cannot tell is decided by push_in().
 static const double SURE = 1 - 1e-12;
 
-bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3], double d2) {
+bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
+                      double d2) {
     const vn_guards *guards = &a->guards.data[i];
     vn_points points = vn_attractors_points(a);
     vn_points nodes = vn_network_points(network);
@@ -154,7 +155,8 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
 
 // What a new tie takes over: from a ghost of itself, or from the node's parent, whose tags it inherits.
 // @p anew says that it was no member before.
-static vn_tie inherit(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node, bool *anew) {
+static vn_tie inherit(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node,
+                      bool *anew) {
     vn_tie made = {.node = node, .best = INFINITY};
     *anew = true;
     int32_t parent = network->parent.data[node];
@@ -223,10 +225,17 @@ static bool is_in_lune(int32_t node, const vn_lune *lune, void *payload) {
     return is_in;
 }
 
-// Some node in the lune, or -1.
-static int32_t find_in_lune(const vn_network *network, const double s[3], const double v[3]) {
+// Some node in the lune of s and v, or -1. Where v grew from @p parent, a neighbor until now, the lune of
+// that one is known to be empty but for the nodes from @p begin on, and most of v's lies inside it.
+static int32_t find_in_lune(const vn_network *network, const double s[3], const double v[3], int32_t parent,
+                            int32_t begin) {
     lune_search search = {network, -1};
-    vn_lune lune = {{s[0], s[1], s[2]}, {v[0], v[1], v[2]}};
+    vn_lune lune = {{s[0], s[1], s[2]}, {v[0], v[1], v[2]}, {0}, -1, begin};
+    if (parent >= 0) {
+        vn_network_position(network, parent, lune.cleared);
+        double known2 = vn_distance2(s, lune.cleared);
+        lune.cleared_radius2 = vn_distance2(s, v) < SURE * known2 ? SURE * known2 : -1;
+    }
     vn_points nodes = vn_network_points(network);
     vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, &lune, is_in_lune, &search);
     return search.found;
@@ -299,7 +308,8 @@ static double reach_between(const bearing *a, const bearing *b) {
     }
     double area = fabs(a->x * b->y - a->y * b->x);
     double sides = a->distance * b->distance * hypot(a->x - b->x, a->y - b->y);
-    return gap < 3.14 && area > 1e-9 * a->distance * b->distance ? fmax(farther, sides / (2 * area)) : INFINITY;
+    return gap < 3.14 && area > 1e-9 * a->distance * b->distance ? fmax(farther, sides / (2 * area))
+                                                                 : INFINITY;
 }
 
 // How far from s a new node may be and still become a neighbor, or drive one out.
@@ -348,7 +358,8 @@ vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {
         vn_found found = a->near_nodes.data[k];
         vn_network_position(network, found.point, v);
         if (found.distance2 <= a->reach2 && !is_excluded_among(a, network, k, s) &&
-            (a->mode == VN_URQUHART || find_in_lune(network, s, v) < 0) && !is_tie(a, i, found.point)) {
+            (a->mode == VN_URQUHART || find_in_lune(network, s, v, -1, 0) < 0) &&
+            !is_tie(a, i, found.point)) {
             VN_TRY(add_tie(a, network, i, found.point, found.distance2));
         }
     }
@@ -384,10 +395,12 @@ vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, i
     }
     place_of(a, i, s);
     vn_network_position(network, node, u);
+    int32_t parent = network->parent.data[node];
+    parent = parent >= 0 && is_tie(a, i, parent) ? parent : -1;
     if (!push_in(a, network, i, u, s) || is_tie(a, i, node)) {
         return VN_OK;
     }
-    int32_t between = find_in_lune(network, s, u);
+    int32_t between = find_in_lune(network, s, u, parent, a->nodes_seen);
     if (between >= 0) {
         post_guard(&a->guards.data[i], between, false);
         return VN_OK;

@@ -49,7 +49,7 @@ struct vn_network {
     uint64_t moved;   ///< changes when nodes that were there moved
     vn_point_grid grid;
     uint64_t grid_moved;
-    int32_t grid_count; ///< nodes when its cells were chosen
+    int32_t grid_count;           ///< nodes when its cells were chosen
     vn_point_tree tree_of_points; ///< of the nodes; empty until somebody asks
     uint64_t tree_moved;
     vn_delaunay *delaunay; ///< of the nodes; NULL until somebody asks

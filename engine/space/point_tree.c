@@ -7,7 +7,7 @@ void vn_point_tree_free(vn_point_tree *tree) {
     vn_array_free(&tree->next);
 }
 
-static const vn_tree_cell empty_cell = {-1, -1, 0};
+static const vn_tree_cell empty_cell = {-1, -1, 0, -1};
 
 static vn_status add_children(vn_point_tree *tree, int32_t *first) {
     int fan = 1 << tree->dim;
@@ -40,6 +40,9 @@ static void link_point(vn_point_tree *tree, int32_t cell, int32_t point) {
     tree->next.data[point] = tree->cells.data[cell].head;
     tree->cells.data[cell].head = point;
     tree->cells.data[cell].count++;
+    if (tree->cells.data[cell].newest < point) {
+        tree->cells.data[cell].newest = point;
+    }
 }
 
 static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_t cell, const place *at) {
@@ -53,7 +56,7 @@ static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_
         link_point(tree, first + octant(tree->dim, &below, p), point);
         point = next;
     }
-    tree->cells.data[cell] = (vn_tree_cell){first, -1, 0};
+    tree->cells.data[cell] = (vn_tree_cell){first, -1, 0, tree->cells.data[cell].newest};
     return VN_OK;
 }
 
@@ -74,6 +77,7 @@ static vn_status insert(vn_point_tree *tree, const vn_points *points, int32_t po
             }
             VN_TRY(split_leaf(tree, points, cell, &at));
         }
+        tree->cells.data[cell].newest = point;
         cell = tree->cells.data[cell].children + octant(tree->dim, &at, p);
     }
 }
@@ -100,7 +104,7 @@ static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
     }
     tree->size *= 2;
     tree->cells.data[first + which] = tree->cells.data[0];
-    tree->cells.data[0] = (vn_tree_cell){first, -1, 0};
+    tree->cells.data[0] = (vn_tree_cell){first, -1, 0, tree->cells.data[0].newest};
     return VN_OK;
 }
 
@@ -166,6 +170,22 @@ static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
     return false;
 }
 
+// Of the box's points, the squared distance of the farthest.
+static double reach2_from(const place *at, int dim, const double p[3]) {
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        double low = p[k] - at->low[k], high = at->low[k] + at->size - p[k];
+        double d = low > high ? low : high;
+        sum += d * d;
+    }
+    return sum;
+}
+
+static bool is_cleared(const lune_query *q, const vn_tree_cell *cell, const place *at) {
+    return cell->newest < q->lune->before &&
+           reach2_from(at, q->tree->dim, q->lune->cleared) <= q->lune->cleared_radius2;
+}
+
 static bool overlaps(const lune_query *q, const place *at) {
     int dim = q->tree->dim;
     return distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
@@ -182,7 +202,8 @@ static bool any_below(const lune_query *q, int32_t cell, const place *at) {
         const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
         bool empty = child->children < 0 && child->count == 0;
         place below = child_place(at, dim, c);
-        if (!empty && overlaps(q, &below) && any_below(q, here->children + c, &below)) {
+        if (!empty && overlaps(q, &below) && !is_cleared(q, child, &below) &&
+            any_below(q, here->children + c, &below)) {
             return true;
         }
     }
@@ -209,8 +230,8 @@ enum { BLOCKERS = 12 }; // as many of the nearest are asked whether they hide a 
 // What is certain, whatever doubles do to the last bits.
 static const double SURE = 1 - 1e-12;
 
-// Whether everything in the box is nearer to the found point than to p, and farther from p than that point is:
-// none of it can be a relative neighbor of p.
+// Whether everything in the box is nearer to the found point than to p, and farther from p than that point
+// is: none of it can be a relative neighbor of p.
 static bool hides_box(const around_query *q, const vn_found *by, const place *at, double nearest2) {
     double w[3], least = 0;
     if (!(by->distance2 < SURE * nearest2)) {

@@ -1,14 +1,15 @@
-/// A growing set of points in a tree of square boxes: is there a point in some region, however large or far off
-/// it is, in time that depends on its border alone.
+/// A growing set of points in a tree of square boxes: is there a point in some region, however large or far
+/// off it is, in time that depends on its border alone.
 #ifndef VN_SPACE_POINT_TREE_H
 #define VN_SPACE_POINT_TREE_H
 
 #include "space/points.h"
 
-/// A box: halved along each axis into `children`, 2^dim cells from that index on; or, where that is -1, a leaf
-/// with a chain of points.
+/// A box: halved along each axis into `children`, 2^dim cells from that index on; or, where that is -1, a
+/// leaf with a chain of points.
 typedef struct vn_tree_cell {
     int32_t children, head, count;
+    int32_t newest; ///< the highest index in it
 } vn_tree_cell;
 
 /// Holds the points 0 .. count-1 of columns that the caller keeps and passes to each call.
@@ -23,9 +24,13 @@ void vn_point_tree_free(vn_point_tree *tree);
 /// Insert the points up to @p count that are not yet in it; a zeroed tree is empty.
 vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count);
 
-/// The lune of two points: what is nearer to @p s than @p v is, and no farther from @p v than @p s is.
+/// The lune of two points: what is nearer to `s` than `v` is, and no farther from `v` than `s` is. Points
+/// below `before` that are no farther from `cleared` than `cleared_radius2` need not be asked for: their
+/// answer is known.
 typedef struct vn_lune {
     double s[3], v[3];
+    double cleared[3], cleared_radius2; ///< squared; negative: nothing is known
+    int32_t before;
 } vn_lune;
 
 /// Whether a point of the tree may be in the lune; called only for points that are, to rounding.
@@ -41,8 +46,8 @@ typedef struct vn_found {
 } vn_found;
 typedef VN_ARRAY(vn_found) vn_found_array;
 
-/// The points that may be relative neighbors of @p p (READINGS R4), by growing distance up to √reach2: each that
-/// is not certainly excluded by another. Some that are excluded by points in between are among them.
+/// The points that may be relative neighbors of @p p (READINGS R4), by growing distance up to √reach2: each
+/// that is not certainly excluded by another. Some that are excluded by points in between are among them.
 vn_status vn_point_tree_around(const vn_point_tree *tree, const vn_points *points, const double p[3],
                                double reach2, vn_found_array *found);
 

@@ -90,16 +90,17 @@ enum { VN_MEET_CROSS, VN_MEET_JOIN };
 typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
     vn_domain *domain; ///< an edge that would leave it is not made; held by the attractors; may be NULL
-    int meet;          ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
-                       ///< it ends there, joined to the other vein (in 2D)
+    int meet; ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
+              ///< it ends there, joined to the other vein (in 2D)
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that
 /// direction vanishes, or has a child already, the node grows toward its first-ranked attractor alone
 /// (READINGS R3). Where the edge would leave the domain, each of the attractors is tried alone, then given to
 /// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
-/// retired. @p added gets how many nodes and joins there are more, @p first the index of the first such node. Counts the
-/// network's step on. When it adds none, and neither attractors nor domain change, no later call will.
+/// retired. @p added gets how many nodes and joins there are more, @p first the index of the first such node.
+/// Counts the network's step on. When it adds none, and neither attractors nor domain change, no later call
+/// will.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,
                            int32_t *added, int32_t *first);
 

@@ -3,7 +3,7 @@
 
 ---@class venule
 ---@field version string
-local venule = {domain = {}, growth = {}}
+local venule = {domain = {}, growth = {}, leaf = {}}
 
 ---@class venule.Bounds
 ---@field min number[]
@@ -129,7 +129,7 @@ function venule.result(options) end
 ---@field segment_length? number # D: the length a vein gains in a step
 ---@field attraction_distance? number # sources farther than this draw no vein; left out: any distance
 ---@field darts number # ρ: darts thrown per area and step; under marginal growth, per area once
----@field neighborhood? "nearest" # which nodes a source draws: the nearest one (open venation)
+---@field neighborhood? "nearest"|"relative"|"urquhart" # which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these
 ---@field vein_steps? integer # vein steps to one growth step
 ---@field stop? "reached"|"grown" # end when every source is reached, or as soon as the blade is grown
 ---@field murray? table # {exponent=, tip_radius=}: radii by Murray's law
@@ -139,6 +139,165 @@ function venule.result(options) end
 ---@param options venule.venation.Options
 ---@return venule.Venation
 function venule.venation(options) end
+
+---@class (exact) venule.leaf.entire.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.5 of the length
+---@field widest? number # where it is widest: 0 is the base, 1 the tip (ovate below 0.5, obovate above)
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "cuneate"|"rounded"|"truncate" # wedge-shaped, round, or cut off
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A blade with a smooth margin, from linear to round, ovate to obovate.
+---@param options? venule.leaf.entire.Options
+---@return venule.Domain
+function venule.leaf.entire(options) end
+
+---@class (exact) venule.leaf.toothed.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.6 of the length
+---@field widest? number # where it is widest: 0 is the base, 1 the tip (ovate below 0.5, obovate above)
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "cuneate"|"rounded"|"truncate" # wedge-shaped, round, or cut off
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---The same with a toothed margin: small teeth upon large ones.
+---@param options? venule.leaf.toothed.Options
+---@return venule.Domain
+function venule.leaf.toothed(options) end
+
+---@class (exact) venule.leaf.poplar.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.85 of the length
+---@field widest? number # where it is widest: 0 is the base, 1 the tip (ovate below 0.5, obovate above)
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "cuneate"|"rounded"|"truncate" # wedge-shaped, round, or cut off
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A blade broad at its foot with a drawn-out tip and small blunt teeth.
+---@param options? venule.leaf.poplar.Options
+---@return venule.Domain
+function venule.leaf.poplar(options) end
+
+---@class (exact) venule.leaf.orchid.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.26 of the length
+---@field widest? number # where it is widest: 0 is the base, 1 the tip (ovate below 0.5, obovate above)
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "cuneate"|"rounded"|"truncate" # wedge-shaped, round, or cut off
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A lance-shaped blade of parallel veins.
+---@param options? venule.leaf.orchid.Options
+---@return venule.Domain
+function venule.leaf.orchid(options) end
+
+---@class (exact) venule.leaf.petal.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.55 of the length
+---@field widest? number # where it is widest: 0 is the base, 1 the tip (ovate below 0.5, obovate above)
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "cuneate"|"rounded"|"truncate" # wedge-shaped, round, or cut off
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A petal of trillium: broadest above its middle, pointed, narrow at its foot.
+---@param options? venule.leaf.petal.Options
+---@return venule.Domain
+function venule.leaf.petal(options) end
+
+---@class (exact) venule.leaf.linear.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.06 of the length
+---@field taper? number # the share of the length in which it narrows to its tip
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A grass blade; its base is as wide as the blade, for a row of seed nodes (venule.leaf.base).
+---@param options? venule.leaf.linear.Options
+---@return venule.Domain
+function venule.leaf.linear(options) end
+
+---@class (exact) venule.leaf.cordate.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.85 of the length
+---@field widest? number # where it is widest, before the base is hung
+---@field lobe? number # how far the base hangs below the petiole, of the length
+---@field tip? "rounded"|"acute"|"acuminate"|"caudate" # caudate: drawn out into a tail
+---@field base? "rounded"|"truncate" # of the blade before it is hung
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---Heart-shaped: the base hangs below the petiole, at both sides of a notch.
+---@param options? venule.leaf.cordate.Options
+---@return venule.Domain
+function venule.leaf.cordate(options) end
+
+---@class (exact) venule.leaf.digitate.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: as the lobes make it
+---@field count? integer # lobes; odd
+---@field sinus? number # how near the petiole the bays between lobes come, of a lobe's length
+---@field spread? number # between the outermost lobes
+---@field outer? number # the length of the outermost lobes, of that in the middle
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---Lobes like fingers: maple, sweetgum. Each is a ray from the petiole.
+---@param options? venule.leaf.digitate.Options
+---@return venule.Domain
+function venule.leaf.digitate(options) end
+
+---@class (exact) venule.leaf.reniform.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: as the lobes make it
+---@field count? integer # lobes; odd
+---@field depth? number # of the bays between lobes, of the radius there
+---@field sinus? number # how wide the notch at the petiole opens
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---Kidney-shaped to round, with shallow round lobes: lady's mantle.
+---@param options? venule.leaf.reniform.Options
+---@return venule.Domain
+function venule.leaf.reniform(options) end
+
+---@class (exact) venule.leaf.fan.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: as the fan opens
+---@field spread? number # between the two sides
+---@field notch? number # depth of the notch, of the length
+---@field wave? number # height of the waves of the margin, of the length
+---@field teeth? table # waves of teeth along the margin, as venule.leaf.teeth has them
+
+---A fan with straight sides and a notch at its top: ginkgo. Its length is that of the halves.
+---@param options? venule.leaf.fan.Options
+---@return venule.Domain
+function venule.leaf.fan(options) end
+
+---@class (exact) venule.leaf.lobed.Options
+---@field length? number # from the petiole to the tip
+---@field width? number # where it is widest; left out: 0.6 of the length
+---@field count? integer # lobes at each side
+---@field depth? number # of the bays, of the half width there
+
+---Lobes off a midrib: oak. Not star-shaped, so not a shape for growth.marginal.
+---@param options? venule.leaf.lobed.Options
+---@return venule.Domain
+function venule.leaf.lobed(options) end
+
+---The points {{x, y}, …} of a shape's outline, counterclockwise from the petiole: `venule.leaf.outline("fan", {notch = 0})`.
+---@param shape string
+---@param options? table
+---@return number[][]
+function venule.leaf.outline(shape, options) end
+
+---Teeth upon an outline whose first point is the petiole and whose highest is the tip: sums of triangular waves {{count, depth, skew}, …} (Runions §3.2). `count` teeth at each side, `depth` of the outline's length, `skew` (0.5) where a tooth is highest. Where the petiole saw the whole margin it still does: what a tooth would hide is cut off. Another outline may come to cross itself.
+---@param points number[][]
+---@param waves number[][]
+---@return number[][]
+function venule.leaf.teeth(points, waves) end
+
+---n seed points {{x, y}, …} just inside the blade: evenly along its base, for parallel veins; where the blade hangs below its petiole, on a small arc about that.
+---@param blade venule.Domain|venule.Growth
+---@param n integer
+---@return number[][]
+function venule.leaf.base(blade, n) end
 
 ---@class venule.Venation
 ---@field network venule.Network
@@ -352,6 +511,7 @@ function Network:murray(options) end
 ---@class (exact) venule.extend.Options
 ---@field length number # D, the length of a new vein segment, length
 ---@field domain? venule.Domain|venule.Growth # an edge that would leave it is not made; its attractor turns to the nearest node that sees it
+---@field meet? "cross"|"join" # what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to it (in 2D) (default "cross")
 
 ---Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.
 ---@param influence venule.Influence
@@ -415,7 +575,7 @@ function Attractors:add(x, y, z) end
 function Attractors:throw(options) end
 
 ---@class (exact) venule.influence.Options
----@field mode? "nearest" # which nodes an attractor influences: the nearest one (open venation, Runions §3) (default "nearest")
+---@field mode? "nearest"|"relative"|"urquhart" # which nodes an attractor influences: the nearest one (open venation, Runions §3), its relative neighbors (closed venation, §4), or the Urquhart approximation of these (§5.2) (default "nearest")
 ---@field within? number # attraction distance: nodes farther away are not influenced; left out: any distance, length
 
 ---Which attractors influence which nodes; good until the attractors or the network change.
@@ -426,7 +586,7 @@ function Attractors:influence(network, options) end
 
 ---@class (exact) venule.consume.Options
 ---@field distance number # kill distance: an attractor that a node is closer to is consumed, length
----@field mode? "any" # how many nodes must be that close: any one (open venation, Runions §3.3) (default "any")
+---@field mode? "any"|"all"|"tagged" # which nodes must be that close: any one (open venation, Runions §3.3), all that it influences (Webb), or all whose veins it influenced when the first one came (closed venation, §4) (default "any")
 ---@field into? venule.Attractors # a set that the consumed ones are added to
 
 ---Remove the attractors that the network has reached; how many.

@@ -103,6 +103,8 @@ local tables = {
     given = {length = 1},
     length = {kind = "number", required = true, above = 0, max = 1e150, unit = "length", doc = "D, the length of a new vein segment"},
     domain = {kind = "domain", doc = "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
+    meet = {kind = "choice", choices = "cross|join",
+      doc = "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to it (in 2D)"},
   },
   attractors = {
     call = function(o) venule.attractors(o) end, optional = true,
@@ -125,8 +127,8 @@ local tables = {
   },
   influence = {
     call = function(o) local _, n, a = influence() a:influence(n, o) end, optional = true,
-    mode = {kind = "choice", choices = "nearest",
-      doc = "which nodes an attractor influences: the nearest one (open venation, Runions §3)"},
+    mode = {kind = "choice", choices = "nearest|relative|urquhart",
+      doc = "which nodes an attractor influences: the nearest one (open venation, Runions §3), its relative neighbors (closed venation, §4), or the Urquhart approximation of these (§5.2)"},
     within = {kind = "number", above = 0, max = 1e300, unit = "length",
       doc = "attraction distance: nodes farther away are not influenced; left out: any distance"},
   },
@@ -135,7 +137,8 @@ local tables = {
     given = {distance = 1},
     distance = {kind = "number", required = true, above = 0, max = 1e300, unit = "length",
       doc = "kill distance: an attractor that a node is closer to is consumed"},
-    mode = {kind = "choice", choices = "any", doc = "how many nodes must be that close: any one (open venation, Runions §3.3)"},
+    mode = {kind = "choice", choices = "any|all|tagged",
+      doc = "which nodes must be that close: any one (open venation, Runions §3.3), all that it influences (Webb), or all whose veins it influenced when the first one came (closed venation, §4)"},
     into = {kind = "attractors", doc = "a set that the consumed ones are added to"},
   },
   canvas = {
