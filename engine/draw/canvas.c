@@ -56,6 +56,8 @@ static const vn_field stroke_fields[] = {
         "width of the edges; \"radius\", the default, is twice each edge's radius"),
     ROW(min_width, VN_F64, 0, 0, LARGEST_SIDE, "pixels", NULL,
         "no edge is drawn thinner than this, so that the finest veins do not vanish"),
+    ROW(hide_below, VN_F64, 0, 0, LARGEST_SIDE, "pixels", NULL,
+        "edges thinner than this are left out, so that a large network makes a small file; 0: none is"),
 };
 const vn_schema vn_stroke_schema =
     VN_SCHEMA("stroke", "Draw a network's edges", stroke_fields, stroke_defaults);

@@ -1,5 +1,7 @@
 #include "draw/chains.h"
 
+#include "network/network.h"
+
 #include <math.h>
 
 enum { POLL_EVERY = 65536 };
@@ -12,14 +14,21 @@ typedef struct chain_maker {
     const int32_t *parent, *orders;
     int32_t count;
     VN_ARRAY(double) widths; // of each node's edge, view units
-    VN_ARRAY(int32_t) heirs; // the child that continues a node's vein, or -1
+    VN_ARRAY(int32_t) heirs; // the child that continues a node's vein; -1: none; join_heir(): a join
 } chain_maker;
 
 // The width on the canvas. A thousandth of a pixel nobody sees, so sums that differ in their last bits
 // are one width.
+static double true_width(const chain_maker *maker, double width) {
+    return floor(width * maker->canvas->scale * 1000 + 0.5) / 1000;
+}
+
 static float drawn_width(const chain_maker *maker, double width) {
-    double pixels = floor(width * maker->canvas->scale * 1000 + 0.5) / 1000;
-    return (float)fmin(fmax(pixels, maker->def->min_width), 1e6);
+    return (float)fmin(fmax(true_width(maker, width), maker->def->min_width), 1e6);
+}
+
+static bool is_hidden(const chain_maker *maker, double width) {
+    return true_width(maker, width) < maker->def->hide_below;
 }
 
 static float node_width(const chain_maker *maker, int32_t node) {
@@ -81,7 +90,8 @@ static vn_status find_heirs(chain_maker *maker) {
 // Whether the edge of @p node goes on the vein of the edge before it.
 static bool continues(const chain_maker *maker, int32_t node) {
     int32_t parent = maker->parent[node];
-    return maker->parent[parent] >= 0 && maker->heirs.data[parent] == node;
+    return maker->parent[parent] >= 0 && maker->heirs.data[parent] == node &&
+           !is_hidden(maker, maker->widths.data[parent]);
 }
 
 static bool tapers(const chain_maker *maker, int32_t node) {
@@ -91,7 +101,7 @@ static bool tapers(const chain_maker *maker, int32_t node) {
 // Whether the chain that the edge of @p node is part of also holds that of its heir.
 static bool goes_on(const chain_maker *maker, int32_t node, int32_t heir) {
     return heir >= 0 && node_width(maker, heir) == node_width(maker, node) &&
-           node_order(maker, heir) == node_order(maker, node);
+           node_order(maker, heir) == node_order(maker, node) && !is_hidden(maker, maker->widths.data[heir]);
 }
 
 static bool begins(const chain_maker *maker, int32_t node) {
@@ -139,7 +149,7 @@ static vn_status push_edges(chain_maker *maker) {
         if (i % POLL_EVERY == 0) {
             VN_TRY(vn_poll());
         }
-        if (maker->parent[node] < 0) {
+        if (maker->parent[node] < 0 || is_hidden(maker, maker->widths.data[node])) {
             continue;
         }
         if (tapers(maker, node)) {
@@ -151,31 +161,83 @@ static vn_status push_edges(chain_maker *maker) {
     return VN_OK;
 }
 
-// A join has no place in the order of widths: where its radius is not known it is as thin as the thinner
-// of its ends.
-static double join_width(const chain_maker *maker, int32_t a, int32_t b, double radius) {
+// Its own inverse.
+static int32_t join_heir(int32_t join) {
+    return -2 - join;
+}
+
+typedef struct join_ends {
+    int32_t a, b;
+    double width; // view units
+} join_ends;
+
+// Where a join's radius is not known it is as thin as the thinner of its ends.
+static join_ends join_at(const chain_maker *maker, int32_t join) {
+    join_ends ends;
+    double radius;
+    vn_network_join_ends(maker->network, join, &ends.a, &ends.b, &radius);
     if (maker->def->widths == NULL && maker->def->width > 0) {
-        return maker->def->width;
+        ends.width = maker->def->width;
+    } else if (maker->def->widths == NULL && radius > 0) {
+        ends.width = 2 * radius;
+    } else {
+        ends.width = fmin(maker->widths.data[ends.a], maker->widths.data[ends.b]);
     }
-    if (maker->def->widths == NULL && radius > 0) {
-        return 2 * radius;
+    return ends;
+}
+
+// Whether the edges' widths follow a law, by which a join has a parent, its end a, and is what b's own edge
+// is: then it may continue a vein.
+static bool has_lawful_joins(const chain_maker *maker) {
+    vn_murray_def law;
+    bool by_radius = maker->def->widths == NULL && maker->def->width == 0;
+    return by_radius && vn_network_murray_get(maker->network, &law);
+}
+
+// A join that is thicker than all children continues the vein that it leaves.
+static vn_status push_join(chain_maker *maker, int32_t join, const join_ends *ends, bool continues) {
+    vn_piece piece = {.begin = maker->canvas->points.count};
+    piece.order = vn_network_join_order(maker->network, join);
+    piece.width = piece.end_width = drawn_width(maker, ends->width);
+    if (continues) {
+        piece.width = node_width(maker, ends->a);
     }
-    return fmin(maker->widths.data[a], maker->widths.data[b]);
+    VN_TRY(push_point(maker, ends->a));
+    VN_TRY(push_point(maker, ends->b));
+    return push_piece(maker, piece);
 }
 
 static vn_status push_joins(chain_maker *maker) {
     int32_t count = vn_network_join_count(maker->network);
     for (int32_t i = 0; i < count; i++) {
-        int32_t a, b;
-        double radius;
-        vn_network_join_ends(maker->network, i, &a, &b, &radius);
-        vn_piece piece = {.begin = maker->canvas->points.count};
-        piece.width = piece.end_width = drawn_width(maker, join_width(maker, a, b, radius));
-        VN_TRY(push_point(maker, a));
-        VN_TRY(push_point(maker, b));
-        VN_TRY(push_piece(maker, piece));
+        join_ends ends = join_at(maker, i);
+        if (is_hidden(maker, ends.width)) {
+            continue;
+        }
+        bool is_heir = maker->heirs.data[ends.a] == join_heir(i);
+        bool has_vein = maker->parent[ends.a] >= 0 && !is_hidden(maker, maker->widths.data[ends.a]);
+        VN_TRY(push_join(maker, i, &ends, is_heir && has_vein));
     }
     return VN_OK;
+}
+
+static double heir_width(const chain_maker *maker, int32_t node) {
+    int32_t heir = maker->heirs.data[node];
+    if (heir == -1) {
+        return -1;
+    }
+    return heir >= 0 ? maker->widths.data[heir] : join_at(maker, join_heir(heir)).width;
+}
+
+// Where a join continues a vein, the children that leave there are laterals.
+static void find_join_heirs(chain_maker *maker) {
+    int32_t count = has_lawful_joins(maker) ? vn_network_join_count(maker->network) : 0;
+    for (int32_t i = 0; i < count; i++) {
+        join_ends ends = join_at(maker, i);
+        if (ends.width > heir_width(maker, ends.a)) {
+            maker->heirs.data[ends.a] = join_heir(i);
+        }
+    }
 }
 
 typedef VN_ARRAY(float) layer_widths;
@@ -262,6 +324,7 @@ static vn_status sort_layers(vn_piece *pieces, int32_t count) {
 static vn_status make_chains(chain_maker *maker) {
     VN_TRY(find_widths(maker));
     VN_TRY(find_heirs(maker));
+    find_join_heirs(maker);
     VN_TRY(push_edges(maker));
     return push_joins(maker);
 }

@@ -2,6 +2,8 @@
 #ifndef VN_FILE_JSON_H
 #define VN_FILE_JSON_H
 
+#include "venule/output.h"
+
 #define VN_JSON_NETWORK "venule.network"
 #define VN_JSON_NETWORKS "venule.networks"
 
@@ -10,5 +12,8 @@ enum { VN_JSON_VERSION = 1 };
 
 /// In one file.
 enum { VN_JSON_MAX_NETWORKS = 4096 };
+
+/// Make room for one more network, whose two slots are then NULL.
+vn_status vn_network_set_extend(vn_network_set *set);
 
 #endif

@@ -54,6 +54,8 @@ typedef enum row_id {
     ROW_MURRAY,
     ROW_EXPONENT,
     ROW_TIP_RADIUS,
+    ROW_VEINLETS,
+    ROW_ORDER_RATIO,
     ROW_X, // from here on: columns
     ROW_Y,
     ROW_Z,
@@ -91,6 +93,8 @@ static const json_row rows[ROW_COUNT] = {
     [ROW_MURRAY] = {IN_NETWORK, "murray", "murray", AN_OBJECT, IN_MURRAY, false, 0},
     [ROW_EXPONENT] = {IN_MURRAY, "exponent", "murray.exponent", A_NUMBER, AT_START, false, 0},
     [ROW_TIP_RADIUS] = {IN_MURRAY, "tip_radius", "murray.tip_radius", A_NUMBER, AT_START, false, 0},
+    [ROW_VEINLETS] = {IN_MURRAY, "veinlets", "murray.veinlets", A_NUMBER, AT_START, false, 0},
+    [ROW_ORDER_RATIO] = {IN_NETWORK, "order_ratio", "order_ratio", A_NUMBER, AT_START, false, 0},
     [ROW_X] = {IN_NODES, "x", "nodes.x", A_LIST, IN_COLUMN, false, -HUGE_VAL},
     [ROW_Y] = {IN_NODES, "y", "nodes.y", A_LIST, IN_COLUMN, false, -HUGE_VAL},
     [ROW_Z] = {IN_NODES, "z", "nodes.z", A_LIST, IN_COLUMN, false, -HUGE_VAL},
@@ -117,6 +121,7 @@ typedef struct json_draft {
     char unit[MAX_TEXT];
     char name[MAX_TEXT];
     vn_murray_def murray;
+    double order_ratio;
     json_column columns[COLUMN_COUNT];
 } json_draft;
 
@@ -329,7 +334,8 @@ static int restore_orders(json_reader *reader, vn_network *network) {
         return 1;
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        vn_status status = vn_network_set_orders(network, kinds[i]);
+        vn_orders_def def = {.kind = kinds[i], .ratio = reader->draft.order_ratio};
+        vn_status status = vn_network_set_orders_by(network, &def);
         if (status != VN_OK) {
             return refuse_as_engine(reader, status);
         }
@@ -340,29 +346,9 @@ static int restore_orders(json_reader *reader, vn_network *network) {
     return refuse(reader, WHOLE, "nodes.order is neither Strahler's nor Horton's nor Hickey's; leave it out");
 }
 
-// Make room for one more network, whose two slots are then NULL.
-static vn_status set_extend(vn_network_set *set) {
-    size_t old_size = (size_t)set->count * sizeof(void *);
-    vn_network **networks = vn_resize(set->networks, old_size, old_size + sizeof(void *));
-    if (networks == NULL) {
-        return vn_fail_memory("a list of networks", sizeof(void *));
-    }
-    set->networks = networks;
-    char **names = vn_resize(set->names, old_size, old_size + sizeof(void *));
-    if (names == NULL) {
-        set->networks = vn_resize(networks, old_size + sizeof(void *), old_size);
-        return vn_fail_memory("a list of networks", sizeof(void *));
-    }
-    set->names = names;
-    set->networks[set->count] = NULL;
-    set->names[set->count] = NULL;
-    set->count++;
-    return VN_OK;
-}
-
 static vn_status set_append(json_reader *reader) {
     vn_network_set *set = reader->set;
-    VN_TRY(set_extend(set));
+    VN_TRY(vn_network_set_extend(set));
     set->names[set->count - 1] = vn_copy_text(reader->draft.name);
     if (set->names[set->count - 1] == NULL) {
         return vn_fail_memory("a name", strlen(reader->draft.name));
@@ -499,6 +485,12 @@ static int take_number(json_reader *reader, const json_token *token) {
         return 1;
     case ROW_TIP_RADIUS:
         reader->draft.murray.tip_radius = value;
+        return 1;
+    case ROW_VEINLETS:
+        reader->draft.murray.veinlets = value;
+        return 1;
+    case ROW_ORDER_RATIO:
+        reader->draft.order_ratio = value;
         return 1;
     default:
         reader->draft.dim = value;
@@ -784,15 +776,4 @@ vn_status vn_networks_load(vn_network_set *out, const char *path) {
         vn_networks_free(out);
     }
     return status;
-}
-
-void vn_networks_free(vn_network_set *set) {
-    for (int32_t i = 0; i < set->count; i++) {
-        vn_network_destroy(set->networks[i]);
-        vn_free_text(set->names[i]);
-    }
-    size_t size = (size_t)set->count * sizeof(void *);
-    vn_resize(set->networks, size, 0);
-    vn_resize(set->names, size, 0);
-    *set = (vn_network_set){0};
 }

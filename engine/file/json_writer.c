@@ -87,22 +87,28 @@ static vn_status write_nodes(vn_sink *sink, const vn_network *network) {
     return write_text(sink, "}");
 }
 
+static vn_join join_at(const vn_network *network, int32_t join) {
+    vn_join found;
+    vn_network_join_ends(network, join, &found.a, &found.b, &found.radius);
+    return found;
+}
+
 static vn_status write_joins(vn_sink *sink, const vn_network *network) {
     int32_t count = vn_network_join_count(network);
     VN_TRY(write_text(sink, ",\n\"joins\": {\"a\": ["));
     for (int32_t i = 0; i < count; i++) {
         VN_TRY(write_comma(sink, i));
-        VN_TRY(write_integer(sink, network->joins.data[i].a));
+        VN_TRY(write_integer(sink, join_at(network, i).a));
     }
     VN_TRY(write_text(sink, "],\n\"b\": ["));
     for (int32_t i = 0; i < count; i++) {
         VN_TRY(write_comma(sink, i));
-        VN_TRY(write_integer(sink, network->joins.data[i].b));
+        VN_TRY(write_integer(sink, join_at(network, i).b));
     }
     VN_TRY(write_text(sink, "],\n\"radius\": ["));
     for (int32_t i = 0; i < count; i++) {
         VN_TRY(write_comma(sink, i));
-        VN_TRY(vn_sink_number(sink, network->joins.data[i].radius));
+        VN_TRY(vn_sink_number(sink, join_at(network, i).radius));
     }
     return write_text(sink, "]}");
 }
@@ -116,7 +122,20 @@ static vn_status write_murray(vn_sink *sink, const vn_network *network) {
     VN_TRY(vn_sink_number(sink, def.exponent));
     VN_TRY(write_text(sink, ", \"tip_radius\": "));
     VN_TRY(vn_sink_number(sink, def.tip_radius));
+    if (def.veinlets > 0) {
+        VN_TRY(write_text(sink, ", \"veinlets\": "));
+        VN_TRY(vn_sink_number(sink, def.veinlets));
+    }
     return write_text(sink, "}");
+}
+
+// Without which a reader could not check Hickey's orders.
+static vn_status write_order_ratio(vn_sink *sink, const vn_network *network) {
+    if (vn_network_orders(network) == NULL || network->orders_ratio == 0) {
+        return VN_OK;
+    }
+    VN_TRY(write_text(sink, ",\n\"order_ratio\": "));
+    return vn_sink_number(sink, network->orders_ratio);
 }
 
 // The members that a network has alone in its file and among others alike.
@@ -126,6 +145,7 @@ static vn_status write_network(vn_sink *sink, const vn_network *network) {
     VN_TRY(write_text(sink, ", \"unit\": "));
     VN_TRY(write_quoted(sink, vn_network_unit(network)));
     VN_TRY(write_murray(sink, network));
+    VN_TRY(write_order_ratio(sink, network));
     VN_TRY(write_nodes(sink, network));
     return write_joins(sink, network);
 }

@@ -34,6 +34,9 @@ static vn_status make_room(vn_network *network) {
         size *= 2;
     }
     VN_TRY(vn_array_reserve(&network->joins, (int64_t)network->joins.count + 1));
+    if (network->murray) {
+        VN_TRY(vn_demand_reserve(network, network->x.count, (int64_t)network->joins.count + 1));
+    }
     if (size > network->joined.count) {
         VN_TRY(vn_array_reserve(&network->joined, size));
         network->joined.count = (int32_t)size;
@@ -76,7 +79,24 @@ int32_t vn_network_join_count(const vn_network *network) {
 }
 
 void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b, double *radius) {
-    *a = network->joins.data[join].a;
-    *b = network->joins.data[join].b;
-    *radius = network->joins.data[join].radius;
+    const vn_join *given = &network->joins.data[join];
+    *a = given->a;
+    *b = given->b;
+    *radius = given->radius;
+    if (vn_demand_rules(network)) {
+        const vn_demand *demand = vn_network_demand(network);
+        bool flipped = demand->flipped.data[join];
+        *a = flipped ? given->b : given->a;
+        *b = flipped ? given->a : given->b;
+        *radius = vn_murray_radius(network, demand->share.data[*b]);
+    }
+}
+
+int32_t vn_network_join_order(const vn_network *network, int32_t join) {
+    const int32_t *orders = vn_network_orders(network);
+    if (orders == NULL) {
+        return 0;
+    }
+    int32_t a = orders[network->joins.data[join].a], b = orders[network->joins.data[join].b];
+    return a > b ? a : b;
 }

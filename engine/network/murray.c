@@ -1,6 +1,6 @@
 // Murray's law, r_parent^n = Σ r_child^n (Runions et al. 2005, section 3.5), for equal tips: r^n is the
 // number of tips times r_tip^n. So the network counts tips, which are integers and cannot drift, and powers
-// are taken on demand.
+// are taken on demand. Joins and veinlets are demand.c's.
 
 #include "network/network.h"
 
@@ -11,6 +11,9 @@ static const vn_field murray_fields[] = {
      "n in r_parent^n = Σ r_child^n: 3 by Murray, 2 in most of Runions' leaves"},
     {"tip_radius", VN_F64, VN_ABOVE_MIN, offsetof(vn_murray_def, tip_radius), 0, VN_HUGE, "length", NULL,
      "radius of the edges that end in a tip"},
+    {"veinlets", VN_F64, 0, offsetof(vn_murray_def, veinlets), 0, 1e9, "tips", NULL,
+     "what each node of a primary or secondary vein takes up besides its children, for veinlets that are "
+     "not modeled"},
 };
 const vn_schema vn_murray_schema =
     VN_SCHEMA("murray", "Radii by Murray's law", murray_fields, murray_default);
@@ -63,6 +66,9 @@ void vn_network_settle(const vn_network *constant) {
 vn_status vn_network_murray(vn_network *network, const vn_murray_def *def) {
     VN_TRY(vn_check_def(&vn_murray_schema, def));
     VN_TRY(vn_array_reserve(&network->tips, network->x.count));
+    if (network->joins.count > 0 || def->veinlets > 0) {
+        VN_TRY(vn_demand_reserve(network, network->x.count, network->joins.count));
+    }
     network->tips.count = network->x.count;
     network->murray = true;
     network->law = *def;
@@ -81,16 +87,29 @@ bool vn_network_has_radii(const vn_network *network) {
     return network->murray || network->radius.count > 0;
 }
 
+double vn_murray_radius(const vn_network *network, double tips) {
+    double radius = network->law.tip_radius;
+    return tips == 1 ? radius : radius * pow(tips, 1 / network->law.exponent);
+}
+
 static double edge_radius(const vn_network *network, int32_t node) {
     if (!network->murray) {
         return network->radius.count > 0 ? network->radius.data[node] : 0;
     }
-    int32_t tips = network->tips.data[node];
-    return tips == 1 ? network->law.tip_radius
-                     : network->law.tip_radius * pow(tips, 1 / network->law.exponent);
+    return vn_murray_radius(network, network->tips.data[node]);
+}
+
+// Joins that a root is the parent of count among its children.
+static double demanded_radius(const vn_network *network, int32_t node) {
+    bool root = network->parent.data[node] < 0;
+    return vn_murray_radius(network, root ? vn_demand_thickest(network, node)
+                                          : vn_network_demand(network)->share.data[node]);
 }
 
 double vn_network_radius(const vn_network *network, int32_t node) {
+    if (vn_demand_rules(network)) {
+        return demanded_radius(network, node);
+    }
     if (network->recount || network->pending.count > 0) {
         vn_network_settle(network);
     }

@@ -10,7 +10,7 @@ static const vn_field network_fields[] = {
      "a network that would grow beyond it fails; guards against a script that runs away"},
     {"unit", VN_TEXT, 0, offsetof(vn_network_def, unit), 0, 0, "", NULL,
      "the script's length unit (\"mm\"), carried into files"},
-    {"murray", VN_MIXED, 0, 0, 0, 0, "", "table {exponent=, tip_radius=}",
+    {"murray", VN_MIXED, 0, 0, 0, 0, "", "table {exponent=, tip_radius=, veinlets=}",
      "radii by Murray's law, kept up to date as the network grows"},
 };
 const vn_schema vn_network_schema = VN_SCHEMA("network", "An empty network", network_fields, network_default);
@@ -54,6 +54,7 @@ void vn_network_destroy(vn_network *network) {
     vn_array_free(&network->radius);
     vn_array_free(&network->joins);
     vn_array_free(&network->joined);
+    vn_demand_free(&network->demand);
     vn_array_free(&network->orders);
     vn_array_free(&network->sequence);
     vn_point_grid_free(&network->grid);
@@ -78,6 +79,9 @@ vn_status vn_network_reserve(vn_network *network, int64_t need) {
     if (network->murray) {
         VN_TRY(vn_array_reserve(&network->tips, need));
         VN_TRY(vn_array_reserve(&network->pending, network->pending.count + 1));
+    }
+    if (vn_demand_rules(network)) {
+        VN_TRY(vn_demand_reserve(network, need, network->joins.count));
     }
     if (network->radius.count > 0) {
         VN_TRY(vn_array_reserve(&network->radius, need));
@@ -308,6 +312,8 @@ vn_status vn_network_set_radii(vn_network *network, const double *radius) {
     network->recount = false;
     vn_array_free(&network->tips);
     vn_array_free(&network->pending);
+    vn_demand_free(&network->demand);
+    network->demand.version = 0;
     network->version++;
     return VN_OK;
 }

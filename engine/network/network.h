@@ -11,11 +11,24 @@
 
 extern const vn_schema vn_network_schema;
 extern const vn_schema vn_murray_schema;
+extern const vn_schema vn_orders_schema;
 
 typedef struct vn_join {
     int32_t a, b;
     double radius;
 } vn_join;
+
+/// Murray's law where edges alone do not tell (demand.c); worked out when asked for, in memory that was
+/// reserved before: 17 bytes a node.
+typedef struct vn_demand {
+    VN_ARRAY(double) share;   ///< what each parent edge of a node carries, in tips; at a source, its demand
+    VN_ARRAY(int32_t) sorted; ///< nodes, parents before children over edges and joins
+    VN_ARRAY(int32_t) first;  ///< each node's first join end (2 join at a, 2 join + 1 at b), or -1
+    VN_ARRAY(int32_t) next;   ///< the next join end at the same node, or -1
+    VN_ARRAY(bool) flipped;   ///< joins whose parent is b
+    VN_ARRAY(uint8_t) major;  ///< nodes of primary and secondary veins; with veinlets only
+    uint64_t version;         ///< of the network that it holds for
+} vn_demand;
 
 /// One entry a node in every column that is in use: 44 bytes a node in 2D with Murray radii.
 struct vn_network {
@@ -37,11 +50,13 @@ struct vn_network {
     VN_ARRAY(vn_join) joins;
     VN_ARRAY(uint64_t) joined; ///< the pairs of nodes that have a join, hashed; 0: an empty place
     VN_ARRAY(int32_t) orders;
+    double orders_ratio; ///< that Hickey's were computed with
     uint64_t orders_version;
     VN_ARRAY(int32_t) sequence; ///< parents first; empty while the indices themselves are such an order
     bool unordered;             ///< an edge was split since `sequence` was made; it has room for all nodes
     bool murray;
     vn_murray_def law;
+    vn_demand demand;
     int32_t roots;
     int32_t step;
     uint64_t serial;  ///< which network this is, among all of the process
@@ -114,8 +129,22 @@ static inline int32_t vn_network_nth(const vn_network *network, int32_t k) {
     return network->sequence.count > 0 ? network->sequence.data[k] : k;
 }
 
+/// What vn_network_set_orders_by() keeps; @p order has room for all nodes.
+vn_status vn_network_compute_orders(const vn_network *network, const vn_orders_def *def, int32_t *order);
+
 /// How many tips hang at or below each node; @p tips has room for all.
 void vn_network_count_tips(const vn_network *network, int32_t *tips);
+
+/// Whether widths follow from demands: there is a law, and joins or veinlets.
+bool vn_demand_rules(const vn_network *network);
+vn_status vn_demand_reserve(vn_network *network, int64_t nodes, int64_t joins);
+void vn_demand_free(vn_demand *demand);
+/// The demands, brought up to date; only where they rule.
+const vn_demand *vn_network_demand(const vn_network *network);
+/// The largest share among a node's child edges.
+double vn_demand_thickest(const vn_network *network, int32_t node);
+/// The radius of an edge that carries the demand of so many tips, by the law in force.
+double vn_murray_radius(const vn_network *network, double tips);
 
 /// The law in force; false when there is none.
 bool vn_network_murray_get(const vn_network *network, vn_murray_def *def);

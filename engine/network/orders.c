@@ -1,11 +1,24 @@
 #include "network/network.h"
 
+static const vn_orders_def orders_default = {.kind = VN_STRAHLER};
+
+static const vn_field orders_fields[] = {
+    {"ratio", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_orders_def, ratio), 0, 1, "", NULL,
+     "hickey: a lateral this many times as thick as the thickest child has its order too; left out: none "
+     "has"},
+};
+const vn_schema vn_orders_schema = VN_SCHEMA("orders", "Vein orders", orders_fields, orders_default);
+
+vn_orders_def vn_orders_def_default(void) {
+    return orders_default;
+}
+
 // What decides which child continues a vein: its width, or the tips that it feeds where no radii are known.
 static double weight_of(const vn_network *network, const int32_t *tips, int32_t node) {
     return vn_network_has_radii(network) ? vn_network_radius(network, node) : tips[node];
 }
 
-// The children are listed newest first; of equals the lower index leads, so the later of equals in the list.
+// Of the highest order in @p among (when given), then the thickest, then of the least index.
 static int32_t thickest_child(const vn_network *network, const int32_t *tips, int32_t node,
                               const int32_t *among) {
     int32_t best = -1;
@@ -14,7 +27,8 @@ static int32_t thickest_child(const vn_network *network, const int32_t *tips, in
     for (int32_t c = network->first_child.data[node]; c >= 0; c = network->next_child.data[c]) {
         int32_t order = among != NULL ? among[c] : 0;
         double weight = weight_of(network, tips, c);
-        if (order > highest || (order == highest && weight >= most)) {
+        bool equal = order == highest && weight == most;
+        if (order > highest || (order == highest && weight > most) || (equal && c < best)) {
             highest = order;
             most = weight;
             best = c;
@@ -46,36 +60,48 @@ static void horton(const vn_network *network, const int32_t *tips, int32_t *orde
     }
 }
 
-static void hickey(const vn_network *network, const int32_t *tips, int32_t *order) {
+static void hickey(const vn_network *network, const int32_t *tips, double ratio, int32_t *order) {
     for (int32_t k = 0; k < network->x.count; k++) {
         int32_t node = vn_network_nth(network, k);
         order[node] = network->parent.data[node] < 0 ? 1 : order[node];
         int32_t main = thickest_child(network, tips, node, NULL);
+        double enough = main >= 0 && ratio > 0 ? ratio * weight_of(network, tips, main) : INFINITY;
         for (int32_t c = network->first_child.data[node]; c >= 0; c = network->next_child.data[c]) {
-            order[c] = order[node] + (c != main);
+            order[c] = order[node] + (c != main && !(weight_of(network, tips, c) >= enough));
         }
     }
 }
 
-vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind) {
+vn_status vn_network_compute_orders(const vn_network *network, const vn_orders_def *def, int32_t *order) {
     VN_ARRAY(int32_t) tips = {0};
     VN_TRY(vn_array_zero(&tips, network->x.count));
-    vn_status status = vn_array_zero(&network->orders, network->x.count);
-    if (status != VN_OK) {
-        vn_array_free(&tips);
-        return status;
-    }
     vn_network_count_tips(network, tips.data);
-    if (kind == VN_STRAHLER) {
-        strahler(network, network->orders.data);
-    } else if (kind == VN_HORTON) {
-        horton(network, tips.data, network->orders.data);
+    if (def->kind == VN_STRAHLER) {
+        strahler(network, order);
+    } else if (def->kind == VN_HORTON) {
+        horton(network, tips.data, order);
     } else {
-        hickey(network, tips.data, network->orders.data);
+        hickey(network, tips.data, def->ratio, order);
     }
-    network->orders_version = network->version;
     vn_array_free(&tips);
     return VN_OK;
+}
+
+vn_status vn_network_set_orders_by(vn_network *network, const vn_orders_def *def) {
+    VN_TRY(vn_check_def(&vn_orders_schema, def));
+    VN_TRY(vn_array_zero(&network->orders, network->x.count));
+    vn_status status = vn_network_compute_orders(network, def, network->orders.data);
+    if (status != VN_OK) {
+        network->orders.count = 0;
+        return status;
+    }
+    network->orders_ratio = def->kind == VN_HICKEY ? def->ratio : 0;
+    network->orders_version = network->version;
+    return VN_OK;
+}
+
+vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind) {
+    return vn_network_set_orders_by(network, &(vn_orders_def){.kind = kind});
 }
 
 const int32_t *vn_network_orders(const vn_network *network) {

@@ -23,9 +23,16 @@ VN_API vn_status vn_network_create(vn_network **out, const vn_network_def *def);
 VN_API void vn_network_destroy(vn_network *network);
 
 /// Radii by Murray's law (Runions §3.5): r_parent^exponent = Σ r_child^exponent, from the tips' radius up.
+/// A node that several edges lead to, its own and those of joins, shares what its children carry equally
+/// among these: r = (Σ r_child^exponent / parents)^(1/exponent). What leaves all nodes without a parent is
+/// then what all tips take up.
 typedef struct vn_murray_def {
     double exponent;   ///< > 0, at most 100; default 3
     double tip_radius; ///< > 0; default 1
+    /// What each node of a primary or secondary vein takes up besides its children, as so many tips
+    /// (tip_radius^exponent each): for veinlets that are not modeled. These veins are those of Hickey's
+    /// orders 1 and 2 by the widths without widening; their tips stay as they are. 0 (the default) to 1e9.
+    double veinlets;
 } vn_murray_def;
 VN_API vn_murray_def vn_murray_def_default(void);
 /// From now on the radii follow the law, however the network grows.
@@ -39,7 +46,9 @@ VN_API vn_status vn_network_add(vn_network *network, int32_t parent, const doubl
 /// parent, and @p child its only child. It was born when @p child was, and the edge's radius holds for both
 /// halves. VN_INVALID for a root, which has no edge.
 VN_API vn_status vn_network_split(vn_network *network, int32_t child, const double p[3], int32_t *node);
-/// Close a loop: an extra edge between @p a and @p b. VN_INVALID when they are the same or connected already.
+/// Close a loop: an extra edge between @p a, meant as the parent, and @p b, the child, whose own parent is
+/// the first of those that meet in it. VN_INVALID when they are the same or connected already. @p radius is
+/// what it has while no law is in force.
 VN_API vn_status vn_network_join(vn_network *network, int32_t a, int32_t b, double radius);
 /// The step that nodes added from now on were born in; 0 at first. vn_extend() counts it on.
 VN_API void vn_network_set_step(vn_network *network, int32_t step);
@@ -49,6 +58,8 @@ VN_API int vn_network_dim(const vn_network *network);
 VN_API const char *vn_network_unit(const vn_network *network);
 VN_API int32_t vn_network_count(const vn_network *network);
 VN_API int32_t vn_network_join_count(const vn_network *network);
+/// The ends of a join and its radius: by Murray's law where it is in force, as given otherwise. By the law
+/// @p a is the parent: a join that would make parents run in a circle is turned for it.
 VN_API void vn_network_join_ends(const vn_network *network, int32_t join, int32_t *a, int32_t *b,
                                  double *radius);
 
@@ -74,13 +85,25 @@ VN_API double vn_network_radius(const vn_network *network, int32_t node);
 /// order in which everything walks the network. NULL means the order of the indices themselves.
 VN_API vn_status vn_network_order(const vn_network *network, const int32_t **order);
 
+/// Orders are those of the forest: joins are nobody's children.
 typedef enum vn_order_kind {
     VN_STRAHLER, ///< tips 1; one more where two children of the highest order meet
     VN_HORTON,   ///< Strahler's, each vein keeping its highest order up its length
-    VN_HICKEY,   ///< 1 from the root along the thickest child; a lateral has one more than what it leaves
+    VN_HICKEY,   ///< 1 from each root along the thickest child; a lateral has one more than what it leaves
 } vn_order_kind;
-/// Compute the order of every node's edge; read by vn_network_orders(). At equal width the lower index leads.
+typedef struct vn_orders_def {
+    vn_order_kind kind;
+    /// Hickey's: a lateral at least this many times as thick as the thickest child has that one's order, as
+    /// primaries have that diverge from one point. Above 0, at most 1; 0 (the default): none has.
+    double ratio;
+} vn_orders_def;
+VN_API vn_orders_def vn_orders_def_default(void);
+/// Compute the order of every node's edge; read by vn_network_orders(). Thickness is the radius, or where no
+/// radii are known the number of tips above; at equal thickness the lower index leads.
 VN_API vn_status vn_network_set_orders(vn_network *network, vn_order_kind kind);
+VN_API vn_status vn_network_set_orders_by(vn_network *network, const vn_orders_def *def);
+/// The order of a join: the higher of its ends', so that of the thinner. 0 where no orders are known.
+VN_API int32_t vn_network_join_order(const vn_network *network, int32_t join);
 /// One entry a node, borrowed until the network next changes; NULL where orders were never computed, or
 /// are outdated.
 VN_API const int32_t *vn_network_orders(const vn_network *network);

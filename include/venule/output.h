@@ -49,6 +49,7 @@ typedef struct vn_stroke_def {
     double width;         ///< of all edges, in view units; 0 (the default): twice each edge's radius
     const double *widths; ///< or the width of each node's edge, one entry a node; borrowed during the call
     double min_width;     ///< no edge is drawn thinner than this, pixels; default 0.3
+    double hide_below;    ///< edges thinner than this are left out, pixels, 0 or more; default 0: none is
 } vn_stroke_def;
 VN_API vn_stroke_def vn_stroke_def_default(void);
 /// Draw a network's edges and joins with round ends, tapered where a vein's radius changes.

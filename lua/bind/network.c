@@ -114,13 +114,17 @@ static int network_joins(lua_State *L) {
 }
 
 static int network_orders(lua_State *L) {
-    vn_network *network = check_network(L);
+    vn_orders_def def;
     const char *word = luaL_checkstring(L, 2);
+    lua_settop(L, 3);
+    vnl_read_options(L, 3, &vn_orders_schema, &def);
+    vn_network *network = check_network(L);
     int kind = vn_choice_index("strahler|horton|hickey", word);
     if (kind < 0) {
         return vnl_fail(L, "network:orders(\"%s\") must be one of strahler, horton, hickey", word);
     }
-    vnl_try(L, vn_network_set_orders(network, (vn_order_kind)kind));
+    def.kind = (vn_order_kind)kind;
+    vnl_try(L, vn_network_set_orders_by(network, &def));
     return 0;
 }
 
@@ -218,7 +222,8 @@ static const vnl_function methods[] = {
     {"add", network_add, "(parent: integer, x: number, y: number, z?: number): integer", NULL,
      "Add a child of a node; its index.", NULL},
     {"join", network_join, "(a: integer, b: integer, radius?: number)", NULL,
-     "Close a loop by an edge between two nodes.", NULL},
+     "Close a loop by an edge from a to b, whose parent a becomes too. `radius` holds while no law does.",
+     NULL},
     {"murray", network_murray, "(options: venule.murray.Options)", NULL,
      "Give the edges radii by Murray's law; from now on they follow it, however the network grows.",
      &vn_murray_schema},
@@ -232,9 +237,13 @@ static const vnl_function methods[] = {
     {"children", network_children, "(node: integer): integer[]", NULL,
      "The children of a node, in the order of birth.", NULL},
     {"joins", network_joins, "(): {a: integer, b: integer, radius: number}[]", NULL,
-     "The extra edges that close loops.", NULL},
-    {"orders", network_orders, "(kind: \"strahler\"|\"horton\"|\"hickey\")", NULL,
-     "Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order.", NULL},
+     "The extra edges that close loops, with their radii; by Murray's law a is the parent.", NULL},
+    {"orders", network_orders, "(kind: \"strahler\"|\"horton\"|\"hickey\", options?: venule.orders.Options)",
+     NULL,
+     "Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order. Joins "
+     "are nobody's "
+     "children; a join has the higher order of its ends.",
+     &vn_orders_schema},
     {"measure", network_measure, "(): venule.Measures", NULL,
      "Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, "
      "max_radius, extent.",

@@ -97,6 +97,13 @@ local tables = {
     call = function(o) net():murray(o) end, optional = true,
     exponent = {kind = "number", above = 0, max = 100, doc = "n in r_parent^n = Σ r_child^n: 3 by Murray, 2 in most of Runions' leaves"},
     tip_radius = {kind = "number", above = 0, max = 1e300, unit = "length", doc = "radius of the edges that end in a tip"},
+    veinlets = {kind = "number", min = 0, max = 1e9, unit = "tips",
+      doc = "what each node of a primary or secondary vein takes up besides its children, for veinlets that are not modeled"},
+  },
+  orders = {
+    call = function(o) net():orders("hickey", o) end, optional = true,
+    ratio = {kind = "number", above = 0, max = 1,
+      doc = "hickey: a lateral this many times as thick as the thickest child has its order too; left out: none has"},
   },
   extend = {
     call = function(o) local f, n = influence() n:extend(f, o) end,
@@ -163,6 +170,8 @@ local tables = {
     opacity = {kind = "number", min = 0, max = 1, doc = "0 is invisible, 1 hides what is behind; veins that cross do not darken each other"},
     min_width = {kind = "number", min = 0, max = 32767, unit = "pixels",
       doc = "no edge is drawn thinner than this, so that the finest veins do not vanish"},
+    hide_below = {kind = "number", min = 0, max = 32767, unit = "pixels",
+      doc = "edges thinner than this are left out, so that a large network makes a small file; 0: none is"},
   },
   dots = {
     call = function(o) canvas():dots({{1, 1}}, o) end, optional = true,
