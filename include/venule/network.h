@@ -118,6 +118,89 @@ typedef struct vn_network_measures {
 } vn_network_measures;
 VN_API vn_status vn_network_measure(const vn_network *network, vn_network_measures *out);
 
+/// Of a list of numbers; all 0 when it is empty. Quartiles are interpolated between neighbours.
+typedef struct vn_statistics {
+    int32_t count;
+    double mean, deviation; ///< of the whole list: divided by count
+    double min, lower, median, upper, max;
+} vn_statistics;
+
+/// Two loops, or what loops were merged to before, that become one when their common veins are cut.
+typedef struct vn_loop_merge {
+    int32_t a, b;  ///< areoles (from 0), or `areoles` + the number of an earlier merge
+    int32_t loops; ///< how many areoles are merged now
+    double radius; ///< of the thickest vein cut so far between them
+} vn_loop_merge;
+
+/// Katifori and Magnasco's hierarchical loop decomposition (PLoS ONE 7:e37994, 2012): veins are cut from the
+/// thinnest up, and two areoles on either side of a cut become one. Veins to the outside are not cut.
+typedef struct vn_loop_hierarchy {
+    vn_loop_merge *merges;
+    int32_t merge_count; ///< 0 where no radii are known
+    int32_t height;      ///< merges on the longest way from the last one down
+    int32_t strahler;    ///< Strahler's order of the tree of merges
+    /// The mean of |r - s| / (r + s - 2) over the merges of r loops with s, weighted by r + s - 1: 0 where
+    /// equals merge, 1 where single loops are added one by one.
+    double asymmetry;
+    double nesting; ///< the mean of the smaller of r, s by the larger, weighted alike
+} vn_loop_hierarchy;
+
+/// Angles in degrees between the three edges at nodes of degree 3, by how thin the thinnest is (Bohn et al.,
+/// Phys. Rev. E 65:061914, 2002).
+typedef struct vn_branching_angles {
+    int32_t count;
+    double daughters; ///< mean angle between the two thinner; where equal, the edge to the parent is thickest
+    /// Of ratios thinnest / thickest in [k / 5, (k + 1) / 5): how many, and mean angles. Empty without radii.
+    struct vn_angle_bin {
+        int32_t count;
+        double thick_middle, thick_thin, middle_thin;
+    } bins[5];
+} vn_branching_angles;
+
+/// How far points of the area are from the nearest vein, on a square grid of points.
+typedef struct vn_vein_distance {
+    double resolution; ///< between points
+    int32_t points;    ///< that lie in the area
+    double mean, max;
+    double mode; ///< the most frequent, among quarter octaves
+} vn_vein_distance;
+
+/// What botanists measure in a leaf. Lengths are in the network's unit, densities in lengths by areas.
+typedef struct vn_leaf_measures {
+    double area;            ///< of the domain that was handed over, or of the nodes' convex hull
+    bool hull;              ///< the latter
+    double length, density; ///< of veins; by area
+    double *order_density;  ///< [k]: of veins of order k + 1: the network's orders, or else Hickey's
+    int32_t order_count;
+    int32_t tips; ///< free ends but for the roots
+    double tip_density;
+    int32_t free_ends; ///< tips within areoles: free-ending veinlets
+    double free_end_density;
+    int32_t degree3, degree4, degree_more; ///< junctions by how many edges meet in them
+    int32_t loops;                         ///< edges - nodes + connected parts
+    int32_t
+        crossings; ///< pairs of edges that cross or touch elsewhere than in a node that both have; counted up
+                   ///< to a million. Where there are any, areoles and what follows from them say little
+    int32_t areoles;          ///< regions that veins close in; as many as loops where nothing crosses
+    double *areole_areas;     ///< each one's, less islands of veins in it
+    double *areole_quotients; ///< each one's isoperimetric quotient 4 π area / perimeter²: 1 for a disk
+    vn_statistics areole_area, areole_quotient;
+    vn_loop_hierarchy hierarchy;
+    vn_branching_angles angles;
+    vn_vein_distance distance;
+} vn_leaf_measures;
+
+typedef struct vn_leaf_def {
+    const vn_domain *domain; ///< the blade, 2D; default NULL: the convex hull of the nodes
+    double resolution;       ///< of the map of distances, length; default 0: 40,000 points in the area
+} vn_leaf_def;
+VN_API vn_leaf_def vn_leaf_def_default(void);
+/// Measure a 2D network as a leaf; let it go by vn_leaf_measures_free(). VN_INVALID in 3D, and for
+/// coordinates beyond 1e150.
+VN_API vn_status vn_network_measure_leaf(const vn_network *network, const vn_leaf_def *def,
+                                         vn_leaf_measures *out);
+VN_API void vn_leaf_measures_free(vn_leaf_measures *measures);
+
 /// Multiply all coordinates and all known radii by @p factor (> 0).
 VN_API vn_status vn_network_scale(vn_network *network, double factor);
 

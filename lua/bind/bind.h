@@ -116,6 +116,11 @@ const char *vnl_push_path(lua_State *L, int index);
 /// nobody knows.
 const char *vnl_push_manifest(lua_State *L);
 
+/// Push an empty holder of a leaf's measures, which frees them.
+vn_leaf_measures *vnl_push_leaf_measures(lua_State *L);
+/// Push what was measured as a table.
+void vnl_push_leaf_table(lua_State *L, const vn_leaf_measures *measures);
+
 /// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and
 /// ipairs().
 /// @p read pushes entry @p i (0-based) of it.

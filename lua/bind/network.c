@@ -1,7 +1,7 @@
 #include "bind/bind.h"
 
 #include "colonize/attractors.h"
-#include "network/network.h"
+#include "network/leaf.h"
 
 #include <string.h>
 
@@ -138,11 +138,32 @@ static void set_number(lua_State *L, const char *name, double value) {
     lua_setfield(L, -2, name);
 }
 
+static bool wants_leaf(lua_State *L, int options) {
+    if (!lua_istable(L, options)) {
+        return false;
+    }
+    int type = vnl_raw_field(L, options, "leaf");
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN) {
+        vnl_fail(L, "measure.leaf: true or false expected, got %s", luaL_typename(L, -1));
+    }
+    bool wants = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return wants;
+}
+
 static int network_measure(lua_State *L) {
-    vn_network *network = check_network(L);
+    vn_leaf_def def;
     vn_network_measures m;
+    lua_settop(L, 2);
+    vn_leaf_measures *leaf = vnl_push_leaf_measures(L);
+    bool wanted = wants_leaf(L, 2);
+    vnl_read_options(L, 2, &vn_leaf_schema, &def);
+    vn_network *network = check_network(L);
     vnl_try(L, vn_network_measure(network, &m));
-    lua_createtable(L, 0, 10);
+    if (wanted) {
+        vnl_try(L, vn_network_measure_leaf(network, &def, leaf));
+    }
+    lua_createtable(L, 0, 11);
     set_count(L, "nodes", m.nodes);
     set_count(L, "roots", m.roots);
     set_count(L, "tips", m.tips);
@@ -154,6 +175,10 @@ static int network_measure(lua_State *L) {
     set_number(L, "max_radius", m.max_radius);
     vnl_push_bounds(L, vn_network_dim(network), &m.extent, vn_network_unit(network));
     lua_setfield(L, -2, "extent");
+    if (wanted) {
+        vnl_push_leaf_table(L, leaf);
+        lua_setfield(L, -2, "leaf");
+    }
     return 1;
 }
 
@@ -244,10 +269,11 @@ static const vnl_function methods[] = {
      "are nobody's "
      "children; a join has the higher order of its ends.",
      &vn_orders_schema},
-    {"measure", network_measure, "(): venule.Measures", NULL,
+    {"measure", network_measure, "(options?: venule.measure.Options): venule.Measures", NULL,
      "Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, "
-     "max_radius, extent.",
-     NULL},
+     "max_radius, extent. With `leaf = true` also what botanists measure in leaves, as `leaf`: vein density, "
+     "areoles, free ends, junctions, the hierarchy of loops, angles, distances to veins.",
+     &vn_leaf_schema},
     {"scale", network_scale, "(factor: number)", NULL, "Multiply all coordinates and radii.", NULL},
     {"save", network_save, "(path: string)", NULL, "Write the network as JSON.", NULL},
     {0},

@@ -14,6 +14,91 @@ static void print_range(const char *name, const double *min, const double *max, 
     putchar('\n');
 }
 
+// Millimetres to the network's unit; 0 where that is not known.
+static double millimetres(const char *unit) {
+    static const struct {
+        const char *name;
+        double mm;
+    } units[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}, {"in", 25.4}, {"pt", 25.4 / 72}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strcmp(unit, units[i].name) == 0) {
+            return units[i].mm;
+        }
+    }
+    return 0;
+}
+
+static void print_density(const vn_leaf_measures *m, const char *unit) {
+    double mm = millimetres(unit);
+    printf("  vein density %g", m->density);
+    if (mm > 0) {
+        printf(" (%g mm/mm²)", m->density / mm);
+    }
+    printf("   in leaves: mean 8 in flowering plants, at most 25, others about 2 mm/mm² (Boyce 2009)\n");
+    for (int32_t k = 0; k < m->order_count && k < 8; k++) {
+        printf("    order %d    %g\n", k + 1, m->order_density[k]);
+    }
+}
+
+static void print_statistics(const char *name, const vn_statistics *s) {
+    printf("    %-10s %g ± %g, median %g, quartiles %g to %g\n", name, s->mean, s->deviation, s->median,
+           s->lower, s->upper);
+}
+
+static void print_areoles(const vn_leaf_measures *m) {
+    printf("  areoles      %d", m->areoles);
+    if (m->crossings > 0) {
+        printf("   not to be relied on: veins cross or touch in %d places", m->crossings);
+    }
+    putchar('\n');
+    if (m->areoles > 0) {
+        print_statistics("area", &m->areole_area);
+        print_statistics("4πA/P²", &m->areole_quotient);
+        printf(
+            "    hierarchy  height %d, Strahler %d, asymmetry %g, nesting %g   (Katifori & Magnasco 2012)\n",
+            m->hierarchy.height, m->hierarchy.strahler, m->hierarchy.asymmetry, m->hierarchy.nesting);
+    }
+    printf("  free ends    %d in areoles, %g by area; of %d tips, %g by area\n", m->free_ends,
+           m->free_end_density, m->tips, m->tip_density);
+}
+
+static void print_junctions(const vn_leaf_measures *m) {
+    int32_t all = m->degree3 + m->degree4 + m->degree_more;
+    double more = all > 0 ? 100.0 * (m->degree4 + m->degree_more) / all : 0;
+    printf(
+        "  junctions    %d of 3 edges, %d of 4, %d of more: %.3g%% above 3   in real networks: 15%% and more "
+        "(Meng 2026)\n",
+        m->degree3, m->degree4, m->degree_more, more);
+    if (m->angles.count > 0) {
+        printf("  angles       %.4g° between daughters   in leaves: 120° where equal veins meet, "
+               "90° thin on thick (Bohn 2002)\n",
+               m->angles.daughters);
+    }
+    for (int k = 0; k < 5; k++) {
+        if (m->angles.bins[k].count > 0) {
+            printf("    thin/thick %.1f to %.1f: %.4g° (%d)\n", k / 5.0, (k + 1) / 5.0,
+                   m->angles.bins[k].thick_thin, m->angles.bins[k].count);
+        }
+    }
+}
+
+static vn_status print_leaf(const vn_network *network) {
+    vn_leaf_measures m;
+    vn_leaf_def def = vn_leaf_def_default();
+    vn_status status = vn_network_measure_leaf(network, &def, &m);
+    if (status != VN_OK) {
+        return status;
+    }
+    printf("  area         %g, of the convex hull\n", m.area);
+    print_density(&m, vn_network_unit(network));
+    print_areoles(&m);
+    print_junctions(&m);
+    printf("  to a vein    mean %g, most frequent %g, at most %g; points %g apart\n", m.distance.mean,
+           m.distance.mode, m.distance.max, m.distance.resolution);
+    vn_leaf_measures_free(&m);
+    return VN_OK;
+}
+
 static vn_status print_text(const vn_network *network, const char *name) {
     vn_network_measures m;
     vn_status status = vn_network_measure(network, &m);
@@ -28,27 +113,79 @@ static vn_status print_text(const vn_network *network, const char *name) {
     printf("  length       %g\n", m.length);
     print_range("extent", m.extent.min, m.extent.max, vn_network_dim(network));
     print_range("radius", &m.min_radius, &m.max_radius, 1);
-    return VN_OK;
+    return vn_network_dim(network) == 2 ? print_leaf(network) : VN_OK;
+}
+
+static void json_statistics(const char *name, const vn_statistics *s) {
+    printf(
+        ", \"%s\": {\"count\": %d, \"mean\": %.17g, \"deviation\": %.17g, \"min\": %.17g, \"lower\": %.17g, "
+        "\"median\": %.17g, \"upper\": %.17g, \"max\": %.17g}",
+        name, s->count, s->mean, s->deviation, s->min, s->lower, s->median, s->upper, s->max);
+}
+
+static void json_angles(const vn_branching_angles *angles) {
+    printf(", \"angles\": {\"count\": %d, \"daughters\": %.17g, \"bins\": [", angles->count,
+           angles->daughters);
+    for (int k = 0; k < 5; k++) {
+        printf("%s{\"from\": %g, \"to\": %g, \"count\": %d, \"thick_middle\": %.17g, \"thick_thin\": %.17g, "
+               "\"middle_thin\": %.17g}",
+               k > 0 ? ", " : "", k / 5.0, (k + 1) / 5.0, angles->bins[k].count, angles->bins[k].thick_middle,
+               angles->bins[k].thick_thin, angles->bins[k].middle_thin);
+    }
+    printf("]}");
+}
+
+static void json_leaf(const vn_leaf_measures *m) {
+    const vn_loop_hierarchy *h = &m->hierarchy;
+    printf(", \"leaf\": {\"area\": %.17g, \"area_of\": \"hull\", \"length\": %.17g, \"density\": %.17g, "
+           "\"order_density\": [",
+           m->area, m->length, m->density);
+    for (int32_t k = 0; k < m->order_count; k++) {
+        printf("%s%.17g", k > 0 ? ", " : "", m->order_density[k]);
+    }
+    printf("], \"tips\": %d, \"tip_density\": %.17g, \"free_ends\": %d, \"free_end_density\": %.17g, ",
+           m->tips, m->tip_density, m->free_ends, m->free_end_density);
+    printf("\"degree3\": %d, \"degree4\": %d, \"degree_more\": %d, \"loops\": %d, \"crossings\": %d, "
+           "\"areoles\": %d",
+           m->degree3, m->degree4, m->degree_more, m->loops, m->crossings, m->areoles);
+    json_statistics("areole_area", &m->areole_area);
+    json_statistics("areole_quotient", &m->areole_quotient);
+    printf(", \"hierarchy\": {\"merges\": %d, \"height\": %d, \"strahler\": %d, \"asymmetry\": %.17g, "
+           "\"nesting\": %.17g}",
+           h->merge_count, h->height, h->strahler, h->asymmetry, h->nesting);
+    json_angles(&m->angles);
+    printf(", \"distance\": {\"resolution\": %.17g, \"points\": %d, \"mean\": %.17g, \"max\": %.17g, "
+           "\"mode\": %.17g}}",
+           m->distance.resolution, m->distance.points, m->distance.mean, m->distance.max, m->distance.mode);
+}
+
+static void json_basics(const vn_network *network, const char *name, const vn_network_measures *m) {
+    printf("{\"name\": %s, \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": %d, "
+           "\"joins\": %d, "
+           "\"depth\": %d, \"length\": %.17g, \"min_radius\": %.17g, \"max_radius\": %.17g",
+           name, vn_network_dim(network), m->nodes, m->roots, m->tips, m->bifurcations, m->joins, m->depth,
+           m->length, m->min_radius, m->max_radius);
 }
 
 static vn_status print_json(const vn_network *network, const char *name) {
     vn_network_measures m;
-    vn_status status = vn_network_measure(network, &m);
-    if (status != VN_OK) {
-        return status;
-    }
+    vn_leaf_measures leaf = {0};
+    vn_leaf_def def = vn_leaf_def_default();
     vn_text quoted = {0};
-    status = vn_text_json(&quoted, name);
-    if (status != VN_OK) {
-        return status;
+    bool flat = vn_network_dim(network) == 2;
+    vn_status status = vn_network_measure(network, &m);
+    status = status == VN_OK && flat ? vn_network_measure_leaf(network, &def, &leaf) : status;
+    status = status == VN_OK ? vn_text_json(&quoted, name) : status;
+    if (status == VN_OK) {
+        json_basics(network, quoted.data, &m);
+        if (flat) {
+            json_leaf(&leaf);
+        }
+        printf("}\n");
     }
-    printf("{\"name\": %s, \"dim\": %d, \"nodes\": %d, \"roots\": %d, \"tips\": %d, \"bifurcations\": "
-           "%d, \"joins\": %d, "
-           "\"depth\": %d, \"length\": %.17g, \"min_radius\": %.17g, \"max_radius\": %.17g}\n",
-           quoted.data, vn_network_dim(network), m.nodes, m.roots, m.tips, m.bifurcations, m.joins, m.depth,
-           m.length, m.min_radius, m.max_radius);
     vn_array_free(&quoted);
-    return VN_OK;
+    vn_leaf_measures_free(&leaf);
+    return status;
 }
 
 int info_command(int argc, char **argv) {

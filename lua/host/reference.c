@@ -240,7 +240,26 @@ static void write_all(writer *w, lua_State *L) {
         "integer\n"
         "---@field bifurcations integer\n---@field joins integer\n---@field depth integer\n---@field length "
         "number\n"
-        "---@field min_radius number\n---@field max_radius number\n---@field extent venule.Bounds\n\n",
+        "---@field min_radius number\n---@field max_radius number\n---@field extent venule.Bounds\n"
+        "---@field leaf? venule.LeafMeasures\n\n",
+        w->stubs);
+    fputs(
+        "---@class venule.Statistics\n---@field count integer\n---@field mean number\n---@field deviation "
+        "number\n---@field min number\n---@field lower number\n---@field median number\n---@field upper "
+        "number\n---@field max number\n\n"
+        "---@class venule.LeafMeasures\n---@field area number\n---@field area_of \"domain\"|\"hull\"\n"
+        "---@field length number\n---@field density number # length by area\n---@field order_density "
+        "number[] # of each vein order\n---@field tips integer # free ends but for roots\n---@field "
+        "tip_density number\n---@field free_ends integer # tips within areoles\n---@field free_end_density "
+        "number\n---@field degree3 integer # junctions of three edges\n---@field degree4 integer\n---@field "
+        "degree_more integer\n---@field loops integer # edges - nodes + connected parts\n---@field crossings "
+        "integer # where there are any, areoles say little\n---@field areoles integer\n---@field "
+        "areole_areas number[]\n---@field areole_quotients number[] # 4 π area / perimeter²\n---@field "
+        "areole_area venule.Statistics\n---@field areole_quotient venule.Statistics\n---@field hierarchy "
+        "{merges: integer, height: integer, strahler: integer, asymmetry: number, nesting: number}\n"
+        "---@field angles {count: integer, daughters: number, bins: {from: number, to: number, count: "
+        "integer, thick_middle: number, thick_thin: number, middle_thin: number}[]}\n---@field distance "
+        "{resolution: number, points: integer, mean: number, max: number, mode: number}\n\n",
         w->stubs);
     fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options "
           "marked *required* "

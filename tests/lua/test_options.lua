@@ -100,6 +100,12 @@ local tables = {
     veinlets = {kind = "number", min = 0, max = 1e9, unit = "tips",
       doc = "what each node of a primary or secondary vein takes up besides its children, for veinlets that are not modeled"},
   },
+  measure = {
+    call = function(o) net():measure(o) end, optional = true,
+    domain = {kind = "domain", doc = "the blade, whose area counts; left out: the convex hull of the nodes"},
+    resolution = {kind = "number", above = 0, max = 1e300, unit = "length",
+      doc = "spacing of the points of the map of distances to veins; left out: 40,000 in the area"},
+  },
   orders = {
     call = function(o) net():orders("hickey", o) end, optional = true,
     ratio = {kind = "number", above = 0, max = 1,

@@ -222,6 +222,7 @@ if [ "$(wc -l <"$work/out")" -eq 1 ]; then ok "one line of it"; else bad "one li
 says "--json counts" '"nodes": '
 expect "info" 0 "" "$program" info "$to/a.json"
 says "info counts" "bifurcations"
+says "info measures leaves" "vein density"
 expect "info --json" 0 "" "$program" info "$to/a.json" --json
 is_json "info --json prints JSON" "$work/out"
 cd "$to" && rm -rf ./* && expect "without -o" 0 "" "$program" run "$work/in/leaf.lua"
