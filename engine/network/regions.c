@@ -130,11 +130,11 @@ static vn_status sort_parts(const vn_network *network, part_list *parts) {
         keys.data[i].key = vn_sortable(network->x.data[parts->data[keys.data[i].value].leftmost]);
     }
     status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
-    if (status == VN_OK) {
-        for (int32_t i = 0; i < keys.count; i++) {
-            sorted.data[sorted.count++] = parts->data[keys.data[i].value];
-        }
-        memcpy(parts->data, sorted.data, (size_t)sorted.count * sizeof *sorted.data);
+    for (int32_t i = 0; status == VN_OK && i < keys.count; i++) {
+        sorted.data[sorted.count++] = parts->data[keys.data[i].value];
+    }
+    for (int32_t i = 0; i < sorted.count; i++) {
+        parts->data[i] = sorted.data[i];
     }
     vn_array_free(&keys);
     vn_array_free(&scratch);

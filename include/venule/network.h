@@ -178,9 +178,9 @@ typedef struct vn_leaf_measures {
     double free_end_density;
     int32_t degree3, degree4, degree_more; ///< junctions by how many edges meet in them
     int32_t loops;                         ///< edges - nodes + connected parts
-    int32_t
-        crossings; ///< pairs of edges that cross or touch elsewhere than in a node that both have; counted up
-                   ///< to a million. Where there are any, areoles and what follows from them say little
+    /// Pairs of edges that cross or touch elsewhere than in a node that both have; counted up to a million.
+    /// Where there are any, areoles and what follows from them are not to be relied on.
+    int32_t crossings;
     int32_t areoles;          ///< regions that veins close in; as many as loops where nothing crosses
     double *areole_areas;     ///< each one's, less islands of veins in it
     double *areole_quotients; ///< each one's isoperimetric quotient 4 π area / perimeter²: 1 for a disk

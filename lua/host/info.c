@@ -65,10 +65,9 @@ static void print_areoles(const vn_leaf_measures *m) {
 static void print_junctions(const vn_leaf_measures *m) {
     int32_t all = m->degree3 + m->degree4 + m->degree_more;
     double more = all > 0 ? 100.0 * (m->degree4 + m->degree_more) / all : 0;
-    printf(
-        "  junctions    %d of 3 edges, %d of 4, %d of more: %.3g%% above 3   in real networks: 15%% and more "
-        "(Meng 2026)\n",
-        m->degree3, m->degree4, m->degree_more, more);
+    printf("  junctions    %d of 3 edges, %d of 4, %d of more: %.3g%% above 3", m->degree3, m->degree4,
+           m->degree_more, more);
+    printf("   in real networks: 15%% and more (Meng 2026)\n");
     if (m->angles.count > 0) {
         printf("  angles       %.4g° between daughters   in leaves: 120° where equal veins meet, "
                "90° thin on thick (Bohn 2002)\n",
