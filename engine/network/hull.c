@@ -25,6 +25,7 @@ static void add_corner(const vn_network *network, node_list *hull, int32_t first
 // Andrew's chains (1979): along the lower side, and back along the upper one.
 static void find_chains(const vn_network *network, const vn_keyed_array *keys, node_list *hull) {
     for (int32_t i = 0; i < keys->count; i++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a key for every node
         add_corner(network, hull, 0, keys->data[i].value);
     }
     int32_t first = hull->count - 1;
@@ -38,6 +39,7 @@ static vn_status make_polygon(vn_domain **out, const vn_network *network, const 
     VN_ARRAY(double) xy = {0};
     vn_status status = vn_array_reserve(&xy, 2 * (int64_t)hull->count);
     for (int32_t i = 0; status == VN_OK && i < hull->count; i++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): there was memory for as many
         xy.data[2 * i] = network->x.data[hull->data[i]];
         xy.data[2 * i + 1] = network->y.data[hull->data[i]];
     }

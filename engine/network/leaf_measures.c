@@ -92,11 +92,14 @@ static double length_between(const vn_network *network, int32_t a, int32_t b) {
 static void add_lengths(vn_leaf_measures *m, const vn_network *network, const int32_t *orders) {
     for (int32_t i = 0; i < network->x.count; i++) {
         int32_t parent = network->parent.data[i];
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): an order for every node, and room for it
         m->order_density[orders[i] - 1] += parent >= 0 ? length_between(network, i, parent) : 0;
     }
     for (int32_t i = 0; i < network->joins.count; i++) {
         int32_t a = network->joins.data[i].a, b = network->joins.data[i].b;
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a join has nodes
         int32_t order = orders[a] > orders[b] ? orders[a] : orders[b];
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a join has nodes
         m->order_density[order - 1] += length_between(network, a, b);
     }
     for (int32_t k = 0; k < m->order_count; k++) {

@@ -140,7 +140,7 @@ bool vn_demand_rules(const vn_network *network);
 vn_status vn_demand_reserve(vn_network *network, int64_t nodes, int64_t joins);
 void vn_demand_free(vn_demand *demand);
 /// The demands, brought up to date; only where they rule.
-const vn_demand *vn_network_demand(const vn_network *network);
+const vn_demand *vn_network_demand(const vn_network *constant);
 /// The largest share among a node's child edges.
 double vn_demand_thickest(const vn_network *network, int32_t node);
 /// The radius of an edge that carries the demand of so many tips, by the law in force.

@@ -127,10 +127,12 @@ static vn_status sort_parts(const vn_network *network, part_list *parts) {
     }
     status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
     for (int32_t i = 0; i < keys.count; i++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a key for every part
         keys.data[i].key = vn_sortable(network->x.data[parts->data[keys.data[i].value].leftmost]);
     }
     status = status == VN_OK ? vn_sort_keyed(&keys, &scratch) : status;
     for (int32_t i = 0; status == VN_OK && i < keys.count; i++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): room for every part
         sorted.data[sorted.count++] = parts->data[keys.data[i].value];
     }
     for (int32_t i = 0; i < sorted.count; i++) {
