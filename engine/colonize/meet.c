@@ -29,6 +29,8 @@ static bool are_kin(const vn_network *network, int32_t a, int32_t b) {
     return false;
 }
 
+// The vein that is met becomes the second parent of the newcomer: were it the other way round, half of what a
+// main vein feeds would count for the twig that ran into it.
 static vn_status join_to(vn_network *network, int32_t node, int32_t to, double length, vn_outcome *outcome) {
     double p[3];
     bool meets;
@@ -40,7 +42,7 @@ static vn_status join_to(vn_network *network, int32_t node, int32_t to, double l
     vn_network_position(network, to, p);
     VN_TRY(vn_network_meets(network, node, p, to, length, &meets, &other));
     if (!meets) {
-        VN_TRY(vn_network_join(network, node, to, 0));
+        VN_TRY(vn_network_join(network, to, node, 0));
         *outcome = VN_MET;
     }
     return VN_OK;
@@ -60,7 +62,7 @@ static vn_status join_into(vn_network *network, int32_t node, const vn_meeting *
         int32_t middle;
         VN_TRY(vn_network_split(network, met->edge, met->p, &middle));
         *outcome = VN_MET;
-        return vn_network_join(network, node, middle, 0);
+        return vn_network_join(network, middle, node, 0);
     }
     VN_TRY(join_to(network, node, ends[nearer], length, outcome));
     return *outcome == VN_BARRED ? join_to(network, node, ends[!nearer], length, outcome) : VN_OK;
