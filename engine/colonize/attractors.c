@@ -58,6 +58,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->ties);
     vn_array_free(&a->touched);
     vn_array_free(&a->outdated);
+    vn_array_free(&a->news);
     vn_array_free(&a->candidates);
     vn_array_free(&a->near_nodes);
     vn_point_grid_free(&a->grid);

@@ -34,6 +34,7 @@ enum {
     VN_LEFT = 4,    ///< tagged, but it does not come nearer any more
     VN_GREW = 8,    ///< it grew toward the attractor: it is no bystander
     VN_GHOST = 16,  ///< a member no more; kept until the step is over, for its children to ask
+    VN_OUSTED = 32, ///< by the new nodes that are being looked at just now
 };
 
 /// Nodes that keep most new ones from becoming neighbors of an attractor: its nearest neighbor, and what was
@@ -48,8 +49,7 @@ typedef struct vn_guards {
 /// The stages of an attractor that draws several veins.
 enum {
     VN_FREE = 0,
-    VN_TOUCHED = 1,  ///< a vein has reached it, and it waits for the others
-    VN_OUTDATED = 2, ///< its Urquhart neighbors have to be found anew
+    VN_TOUCHED = 1, ///< a vein has reached it, and it waits for the others
 };
 
 /// How an attractor finds the nodes that it draws: "nearest", "relative", "urquhart".
@@ -86,6 +86,7 @@ struct vn_attractors {
     VN_ARRAY(vn_tie) ties;      ///< of all attractors, in lists
     int32_t free_tie;           ///< the first of those not in use, or -1
     VN_ARRAY(int32_t) touched;  ///< attractors that were reached and wait for other veins
+    vn_keyed_array news;        ///< the attractors that new nodes may matter to, and these nodes
     VN_ARRAY(int32_t) outdated; ///< whose Urquhart neighbors have to be found anew
     vn_indices candidates;      ///< working memory
     vn_found_array near_nodes;
@@ -166,8 +167,8 @@ vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
 /// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
 bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
                       double d2);
-/// A new node is at squared distance @p d2 of attractor @p i.
-vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2);
+/// Look at the new nodes in `news`.
+vn_status vn_ties_show(vn_attractors *a, const vn_network *network);
 /// Find anew what new nodes have outdated.
 vn_status vn_ties_renew(vn_attractors *a, vn_network *network);
 

@@ -137,10 +137,8 @@ void vn_ties_forget(vn_attractors *a) {
             a->ties.data[tie].state |= VN_GHOST;
         }
     }
-    for (int32_t k = 0; k < a->outdated.count; k++) {
-        a->stage.data[a->outdated.data[k]] &= (uint8_t)~VN_OUTDATED;
-    }
     a->outdated.count = 0;
+    a->news.count = 0;
 }
 
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
@@ -225,19 +223,41 @@ static bool is_in_lune(int32_t node, const vn_lune *lune, void *payload) {
     return is_in;
 }
 
-// Some node in the lune of s and v, or -1. Where v grew from @p parent, a neighbor until now, the lune of
-// that one is known to be empty but for the nodes from @p begin on, and most of v's lies inside it.
-static int32_t find_in_lune(const vn_network *network, const double s[3], const double v[3], int32_t parent,
-                            int32_t begin) {
-    lune_search search = {network, -1};
-    vn_lune lune = {{s[0], s[1], s[2]}, {v[0], v[1], v[2]}, {0}, -1, begin};
-    if (parent >= 0) {
-        vn_network_position(network, parent, lune.cleared);
-        double known2 = vn_distance2(s, lune.cleared);
-        lune.cleared_radius2 = vn_distance2(s, v) < SURE * known2 ? SURE * known2 : -1;
+static void set_lune(vn_lune *lune, const double s[3], const double v[3]) {
+    double d = sqrt(vn_distance2(s, v)) * (1 + 1e-9);
+    for (int k = 0; k < 3; k++) {
+        lune->s[k] = s[k];
+        lune->v[k] = v[k];
+        lune->low[k] = fmax(s[k], v[k]) - d;
+        lune->high[k] = fmin(s[k], v[k]) + d;
     }
+}
+
+// Where v grew from a neighbor p whose lune was empty, what is in v's lune and was not in p's lies beyond the
+// plane through s across the way from p to v: |w - p| > |p - s| and |w - v| <= |v - s| come to that. It is a
+// cap of the ball round v, small when the vein grows toward s.
+static void narrow_lune(vn_lune *lune, const double p[3]) {
+    double step = sqrt(vn_distance2(p, lune->v)), along = 0;
+    double d2 = vn_distance2(lune->s, lune->v);
+    for (int k = 0; k < 3; k++) {
+        along += (lune->v[k] - p[k]) / step * (lune->s[k] - lune->v[k]);
+    }
+    if (!(along > 0) || !(d2 < SURE * vn_distance2(p, lune->s))) {
+        return;
+    }
+    double radius = sqrt(fmax(d2 - along * along, 0)) + 1e-6 * sqrt(d2);
+    for (int k = 0; k < 3; k++) {
+        double center = lune->v[k] + along * (lune->v[k] - p[k]) / step;
+        lune->low[k] = fmax(lune->low[k], center - radius);
+        lune->high[k] = fmin(lune->high[k], center + radius);
+    }
+}
+
+// Some node in the lune, or -1.
+static int32_t find_in_lune(const vn_network *network, const vn_lune *lune) {
+    lune_search search = {network, -1};
     vn_points nodes = vn_network_points(network);
-    vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, &lune, is_in_lune, &search);
+    vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, lune, is_in_lune, &search);
     return search.found;
 }
 
@@ -357,61 +377,123 @@ vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {
     for (int32_t k = a->near_nodes.count - 1; k >= 0; k--) {
         vn_found found = a->near_nodes.data[k];
         vn_network_position(network, found.point, v);
+        vn_lune lune;
+        set_lune(&lune, s, v);
         if (found.distance2 <= a->reach2 && !is_excluded_among(a, network, k, s) &&
-            (a->mode == VN_URQUHART || find_in_lune(network, s, v, -1, 0) < 0) &&
-            !is_tie(a, i, found.point)) {
+            (a->mode == VN_URQUHART || find_in_lune(network, &lune) < 0) && !is_tie(a, i, found.point)) {
             VN_TRY(add_tie(a, network, i, found.point, found.distance2));
         }
     }
     return VN_OK;
 }
 
-// The new node drives out the members that it excludes, even where it is no member itself: that is what
-// sets the relative neighbors apart from the Urquhart ones (Figure 8).
-static bool push_in(vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
-                    const double s[3]) {
-    bool excluded = false;
+// New nodes drive out the members that they exclude, even where they are no members themselves: that is what
+// sets the relative neighbors apart from the Urquhart ones (Figure 8). What a member excludes gets the node
+// -1 - node in the list.
+static void push_in(vn_attractors *a, const vn_network *network, int32_t i, const double s[3], vn_keyed *news,
+                    int32_t count) {
     for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
-        double v[3];
+        double v[3], u[3];
         if (a->ties.data[tie].state & VN_GHOST) {
             continue;
         }
         vn_network_position(network, a->ties.data[tie].node, v);
-        if (!excluded && excludes(v, u, s)) {
-            excluded = true;
-        } else if (excludes(u, v, s)) {
-            a->ties.data[tie].state |= VN_GHOST;
+        for (int32_t k = 0; k < count; k++) {
+            int32_t node = news[k].value;
+            vn_network_position(network, node < 0 ? -1 - node : node, u);
+            if (node >= 0 && excludes(v, u, s)) {
+                news[k].value = -1 - node;
+            } else if (excludes(u, v, s)) {
+                a->ties.data[tie].state |= VN_GHOST | VN_OUSTED;
+            }
         }
     }
-    return !excluded;
 }
 
-vn_status vn_ties_show(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2) {
-    double s[3], u[3];
-    if (a->mode == VN_URQUHART) {
-        bool listed = a->stage.data[i] & VN_OUTDATED;
-        a->stage.data[i] |= VN_OUTDATED;
-        return listed ? VN_OK : vn_array_push(&a->outdated, i);
+static bool is_excluded_by_new(const vn_network *network, const double s[3], const vn_keyed *news,
+                               int32_t count, int32_t k) {
+    double u[3], w[3];
+    vn_network_position(network, news[k].value, u);
+    for (int32_t j = 0; j < count; j++) {
+        int32_t node = news[j].value;
+        vn_network_position(network, node < 0 ? -1 - node : node, w);
+        if (j != k && excludes(w, u, s)) {
+            return true;
+        }
     }
-    place_of(a, i, s);
-    vn_network_position(network, node, u);
+    return false;
+}
+
+// Whether the node was a member when these new nodes came.
+static bool was_member(const vn_attractors *a, int32_t i, int32_t node) {
+    for (int32_t tie = a->first_tie.data[i]; node >= 0 && tie >= 0; tie = a->ties.data[tie].next) {
+        unsigned state = a->ties.data[tie].state & (VN_GHOST | VN_OUSTED);
+        if (a->ties.data[tie].node == node && state != VN_GHOST) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static vn_status welcome(vn_attractors *a, const vn_network *network, int32_t i, const double s[3],
+                         int32_t node) {
+    double u[3], p[3];
+    vn_lune lune;
     int32_t parent = network->parent.data[node];
-    parent = parent >= 0 && is_tie(a, i, parent) ? parent : -1;
-    if (!push_in(a, network, i, u, s) || is_tie(a, i, node)) {
-        return VN_OK;
+    vn_network_position(network, node, u);
+    set_lune(&lune, s, u);
+    if (was_member(a, i, parent)) {
+        vn_network_position(network, parent, p);
+        narrow_lune(&lune, p);
     }
-    int32_t between = find_in_lune(network, s, u, parent, a->nodes_seen);
+    int32_t between = find_in_lune(network, &lune);
     if (between >= 0) {
         post_guard(&a->guards.data[i], between, false);
         return VN_OK;
     }
-    return add_tie(a, network, i, node, d2);
+    return is_tie(a, i, node) ? VN_OK : add_tie(a, network, i, node, vn_distance2(s, u));
+}
+
+static void settle_ousted(vn_attractors *a, int32_t i) {
+    for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
+        a->ties.data[tie].state &= (uint8_t)~VN_OUSTED;
+    }
+}
+
+static vn_status show_group(vn_attractors *a, const vn_network *network, vn_keyed *news, int32_t count) {
+    int32_t i = (int32_t)news[0].key;
+    double s[3];
+    if (a->mode == VN_URQUHART) {
+        return vn_array_push(&a->outdated, i);
+    }
+    place_of(a, i, s);
+    push_in(a, network, i, s, news, count);
+    vn_status status = VN_OK;
+    for (int32_t k = 0; k < count && status == VN_OK; k++) {
+        if (news[k].value >= 0 && !is_excluded_by_new(network, s, news, count, k)) {
+            status = welcome(a, network, i, s, news[k].value);
+        }
+    }
+    settle_ousted(a, i);
+    return status;
+}
+
+vn_status vn_ties_show(vn_attractors *a, const vn_network *network) {
+    VN_TRY(vn_sort_keyed(&a->news, &a->scratch));
+    for (int32_t begin = 0, end; begin < a->news.count; begin = end) {
+        end = begin + 1;
+        while (end < a->news.count && a->news.data[end].key == a->news.data[begin].key) {
+            end++;
+        }
+        VN_TRY(show_group(a, network, a->news.data + begin, end - begin));
+    }
+    a->news.count = 0;
+    return VN_OK;
 }
 
 vn_status vn_ties_renew(vn_attractors *a, vn_network *network) {
     for (int32_t k = 0; k < a->outdated.count; k++) {
         int32_t i = a->outdated.data[k];
-        a->stage.data[i] &= (uint8_t)~VN_OUTDATED;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
         }

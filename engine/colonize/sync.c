@@ -93,7 +93,7 @@ static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t 
             continue;
         }
         VN_TRY(a->mode == VN_NEAREST ? show(a, network, hit.point, node, hit.distance2)
-                                     : vn_ties_show(a, network, hit.point, node, hit.distance2));
+                                     : vn_array_push(&a->news, ((vn_keyed){(uint64_t)hit.point, node})));
     }
     return VN_OK;
 }
@@ -203,7 +203,9 @@ static vn_status look_for_ties(vn_attractors *a, vn_network *network, int32_t be
 static vn_status show_ties(vn_attractors *a, vn_network *network, int32_t begin, int32_t seen) {
     const vn_point_tree *tree;
     VN_TRY(vn_network_tree_of_points(network, &tree));
+    a->news.count = 0;
     VN_TRY(show_nodes(a, network, begin, seen));
+    VN_TRY(vn_ties_show(a, network));
     return vn_ties_renew(a, network);
 }
 

@@ -7,7 +7,7 @@ void vn_point_tree_free(vn_point_tree *tree) {
     vn_array_free(&tree->next);
 }
 
-static const vn_tree_cell empty_cell = {-1, -1, 0, -1};
+static const vn_tree_cell empty_cell = {-1, -1, 0};
 
 static vn_status add_children(vn_point_tree *tree, int32_t *first) {
     int fan = 1 << tree->dim;
@@ -40,9 +40,6 @@ static void link_point(vn_point_tree *tree, int32_t cell, int32_t point) {
     tree->next.data[point] = tree->cells.data[cell].head;
     tree->cells.data[cell].head = point;
     tree->cells.data[cell].count++;
-    if (tree->cells.data[cell].newest < point) {
-        tree->cells.data[cell].newest = point;
-    }
 }
 
 static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_t cell, const place *at) {
@@ -56,7 +53,7 @@ static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_
         link_point(tree, first + octant(tree->dim, &below, p), point);
         point = next;
     }
-    tree->cells.data[cell] = (vn_tree_cell){first, -1, 0, tree->cells.data[cell].newest};
+    tree->cells.data[cell] = (vn_tree_cell){first, -1, 0};
     return VN_OK;
 }
 
@@ -77,7 +74,6 @@ static vn_status insert(vn_point_tree *tree, const vn_points *points, int32_t po
             }
             VN_TRY(split_leaf(tree, points, cell, &at));
         }
-        tree->cells.data[cell].newest = point;
         cell = tree->cells.data[cell].children + octant(tree->dim, &at, p);
     }
 }
@@ -104,7 +100,7 @@ static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
     }
     tree->size *= 2;
     tree->cells.data[first + which] = tree->cells.data[0];
-    tree->cells.data[0] = (vn_tree_cell){first, -1, 0, tree->cells.data[0].newest};
+    tree->cells.data[0] = (vn_tree_cell){first, -1, 0};
     return VN_OK;
 }
 
@@ -170,24 +166,13 @@ static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
     return false;
 }
 
-// Of the box's points, the squared distance of the farthest.
-static double reach2_from(const place *at, int dim, const double p[3]) {
-    double sum = 0;
-    for (int k = 0; k < dim; k++) {
-        double low = p[k] - at->low[k], high = at->low[k] + at->size - p[k];
-        double d = low > high ? low : high;
-        sum += d * d;
-    }
-    return sum;
-}
-
-static bool is_cleared(const lune_query *q, const vn_tree_cell *cell, const place *at) {
-    return cell->newest < q->lune->before &&
-           reach2_from(at, q->tree->dim, q->lune->cleared) <= q->lune->cleared_radius2;
-}
-
 static bool overlaps(const lune_query *q, const place *at) {
     int dim = q->tree->dim;
+    for (int k = 0; k < dim; k++) {
+        if (at->low[k] > q->lune->high[k] || at->low[k] + at->size < q->lune->low[k]) {
+            return false;
+        }
+    }
     return distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
 }
 
@@ -202,19 +187,38 @@ static bool any_below(const lune_query *q, int32_t cell, const place *at) {
         const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
         bool empty = child->children < 0 && child->count == 0;
         place below = child_place(at, dim, c);
-        if (!empty && overlaps(q, &below) && !is_cleared(q, child, &below) &&
-            any_below(q, here->children + c, &below)) {
+        if (!empty && overlaps(q, &below) && any_below(q, here->children + c, &below)) {
             return true;
         }
     }
     return false;
 }
 
+// Down to the smallest cell that holds the lune's box.
+static int32_t descend_to(const lune_query *q, place *at) {
+    const vn_tree_cell *cells = q->tree->cells.data;
+    int32_t cell = 0;
+    while (cells[cell].children >= 0) {
+        double size = 0.5 * at->size;
+        int which = 0;
+        for (int k = 0; k < q->tree->dim; k++) {
+            double middle = at->low[k] + size;
+            if (q->lune->low[k] < middle && q->lune->high[k] >= middle) {
+                return cell;
+            }
+            which |= q->lune->low[k] >= middle ? 1 << k : 0;
+        }
+        *at = child_place(at, q->tree->dim, which);
+        cell = cells[cell].children + which;
+    }
+    return cell;
+}
+
 bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *points, const vn_lune *lune,
                                vn_point_test_fn *test, void *payload) {
     lune_query q = {tree, points, lune, vn_distance2(lune->s, lune->v) * (1 + 1e-9), test, payload};
-    place root = root_of(tree);
-    return tree->cells.count > 0 && any_below(&q, 0, &root);
+    place at = root_of(tree);
+    return tree->cells.count > 0 && any_below(&q, descend_to(&q, &at), &at);
 }
 
 typedef struct around_query {

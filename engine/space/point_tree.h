@@ -9,7 +9,6 @@
 /// leaf with a chain of points.
 typedef struct vn_tree_cell {
     int32_t children, head, count;
-    int32_t newest; ///< the highest index in it
 } vn_tree_cell;
 
 /// Holds the points 0 .. count-1 of columns that the caller keeps and passes to each call.
@@ -24,13 +23,10 @@ void vn_point_tree_free(vn_point_tree *tree);
 /// Insert the points up to @p count that are not yet in it; a zeroed tree is empty.
 vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count);
 
-/// The lune of two points: what is nearer to `s` than `v` is, and no farther from `v` than `s` is. Points
-/// below `before` that are no farther from `cleared` than `cleared_radius2` need not be asked for: their
-/// answer is known.
+/// The lune of two points: what is nearer to `s` than `v` is, and no farther from `v` than `s` is.
 typedef struct vn_lune {
     double s[3], v[3];
-    double cleared[3], cleared_radius2; ///< squared; negative: nothing is known
-    int32_t before;
+    double low[3], high[3]; ///< only this box of it is looked at
 } vn_lune;
 
 /// Whether a point of the tree may be in the lune; called only for points that are, to rounding.

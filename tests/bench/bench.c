@@ -15,8 +15,10 @@
 /// Space colonisation of a square with one root in the middle, all attractors thrown at once.
 typedef struct colony {
     double side;
-    int32_t attractors;
+    int32_t attractors; ///< darts, where there is a spacing
     double within, kill, segment;
+    double spacing; ///< 0: none
+    int mode;       ///< as vn_influence_def has it: 0 open, 1 closed
 } colony;
 
 typedef struct outcome {
@@ -51,7 +53,7 @@ static vn_attractors *thrown(const colony *c, vn_domain *domain) {
     vn_attractors_def set = vn_attractors_def_default();
     vn_attractors *attractors;
     vn_rng rng = vn_rng_make(2005);
-    vn_throw_def def = {.domain = domain, .count = c->attractors, .rng = &rng};
+    vn_throw_def def = {.domain = domain, .count = c->attractors, .spacing = c->spacing, .rng = &rng};
     int32_t accepted;
     must(vn_attractors_create(&attractors, &set));
     must(vn_throw(attractors, &def, &accepted));
@@ -69,9 +71,10 @@ static vn_network *rooted(double side) {
 
 static void grow(const colony *c, vn_network *network, vn_attractors *attractors) {
     vn_influence *influence = NULL;
-    vn_influence_def find = {.within = c->within};
-    vn_extend_def extend = {.length = c->segment};
-    vn_consume_def consume = {.distance = c->kill};
+    bool closed = c->mode > 0;
+    vn_influence_def find = {.mode = c->mode, .within = c->within};
+    vn_extend_def extend = {.length = c->segment, .meet = closed ? VN_MEET_JOIN : VN_MEET_CROSS};
+    vn_consume_def consume = {.distance = c->kill, .mode = closed ? VN_CONSUME_TAGGED : VN_CONSUME_ANY};
     int32_t added, first, consumed;
     do {
         must(vn_influence_find(&influence, attractors, network, &find));
@@ -88,6 +91,7 @@ static outcome run_once(const colony *c) {
     vn_domain *domain = square(c->side);
     double begin = now();
     vn_attractors *attractors = thrown(c, domain);
+    begin = c->spacing > 0 ? now() : begin; // there the sources are given
     vn_network *network = rooted(c->side);
     grow(c, network, attractors);
     result.seconds = now() - begin;
@@ -150,7 +154,7 @@ static void bench_open(report *r, double yard, bool quick) {
     outcome last = {0};
     for (int i = 0; i < count; i++) {
         double unit = 1 / sqrt(all[i]);
-        colony c = {1, all[i], 8 * unit, unit, unit / 2};
+        colony c = {1, all[i], 8 * unit, unit, unit / 2, 0, 0};
         char name[32];
         last = run(&c, times[i]);
         snprintf(name, sizeof name, "open-%d", all[i]);
@@ -170,17 +174,43 @@ static void bench_open(report *r, double yard, bool quick) {
 
 // Webb's own case: 100,000 attractors in a square of 1000, reach 30, kill 5, segment 5.
 static void bench_webb(report *r, double yard, bool quick) {
-    colony c = {1000, 100000, 30, 5, 5};
+    colony c = {1000, 100000, 30, 5, 5, 0, 0};
     (void)quick;
     outcome o = run(&c, 10);
     report_outcome(r, "webb-100000", &o, yard);
     goal("Webb's case, yardsticks (his own: 18.6)", o.seconds / yard, 0.2);
 }
 
+// Sources two segments apart and more, in the density at which darts have become rare.
+static void bench_closed(report *r, double yard, bool quick) {
+    enum { SIZES = 3 };
+    static const double sides[SIZES] = {180, 570, 1800};
+    static const int times[SIZES] = {5, 3, 2};
+    double sizes[SIZES], seconds[SIZES];
+    int count = quick ? SIZES - 1 : SIZES;
+    outcome last = {0};
+    for (int i = 0; i < count; i++) {
+        double side = sides[i];
+        colony c = {side, (int32_t)(1.2 * side * side), 16, 1, 1, 2, 1};
+        char name[32];
+        last = run(&c, times[i]);
+        snprintf(name, sizeof name, "closed-%.0f", side);
+        report_outcome(r, name, &last, yard);
+        sizes[i] = last.nodes;
+        seconds[i] = last.seconds;
+    }
+    double exponent = fitted_exponent(sizes, seconds, count);
+    report_add(r, "closed", "exponent", exponent, "");
+    goal("closed: exponent of seconds against nodes", exponent, 1.1);
+    if (!quick) {
+        goal("closed: yardsticks for 10^6 nodes", last.seconds / yard * 1e6 / last.nodes, 10);
+    }
+}
+
 static const struct {
     const char *name;
     void (*run)(report *r, double yard, bool quick);
-} benches[] = {{"open", bench_open}, {"webb", bench_webb}};
+} benches[] = {{"open", bench_open}, {"webb", bench_webb}, {"closed", bench_closed}};
 
 enum { BENCHES = sizeof benches / sizeof *benches };
 
@@ -214,7 +244,8 @@ static bool read_options(bench_options *o, int argc, char **argv) {
             o->names[o->count++] = argv[i];
         } else {
             fprintf(stderr,
-                    "bench: unknown word %s (venule-bench [open] [webb] [--quick] [--json FILE] [--csv FILE] "
+                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [--quick] [--json FILE] "
+                    "[--csv FILE] "
                     "[--compare FILE.json])\n",
                     argv[i]);
             return false;

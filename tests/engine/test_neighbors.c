@@ -77,6 +77,16 @@ static void assert_relative(const scene *s, const bool seen[MOST]) {
     }
 }
 
+// A root, or the child of some node: of any, since no law of V(s) speaks of parents.
+static void add_node(vn_network *network, const double p[3], vn_rng *rng) {
+    int32_t count = vn_network_count(network);
+    if (count == 0 || whole(rng, 0, 4) == 0) {
+        assert_ok(vn_network_root(network, p, NULL));
+    } else {
+        assert_ok(vn_network_add(network, (int32_t)whole(rng, 0, count - 1), p, NULL));
+    }
+}
+
 // The source comes first, last or half way; nodes come one at a time or in batches.
 static void check_scene(scene *s, vn_rng *rng) {
     bool seen[MOST];
@@ -92,7 +102,7 @@ static void check_scene(scene *s, vn_rng *rng) {
         int next = count + 1 + (int)vn_rng_uniform(rng, 0, 40);
         next = next > all && count < all ? all : next;
         for (int i = count; i < next && i < all; i++) {
-            assert_ok(vn_network_root(network, s->node[i], NULL));
+            add_node(network, s->node[i], rng);
         }
         count = next;
     }
