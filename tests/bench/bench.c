@@ -184,7 +184,7 @@ static void bench_webb(report *r, double yard, bool quick) {
 // Sources two segments apart and more, in the density at which darts have become rare.
 static void bench_closed(report *r, double yard, bool quick) {
     enum { SIZES = 3 };
-    static const double sides[SIZES] = {180, 570, 1800};
+    static const double sides[SIZES] = {134, 424, 1340};
     static const int times[SIZES] = {5, 3, 2};
     double sizes[SIZES], seconds[SIZES];
     int count = quick ? SIZES - 1 : SIZES;
