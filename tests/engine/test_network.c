@@ -152,6 +152,112 @@ static void parents_that_form_no_forest_are_refused(void **state) {
     assert_message("node 1 has the parent 7");
 }
 
+// ---- Splitting ----
+
+static void assert_law(const vn_network *network, double exponent, double tip);
+static int32_t naive_strahler(const vn_network *network, int32_t node);
+
+static void assert_strahler(vn_network *network) {
+    assert_ok(vn_network_set_orders(network, VN_STRAHLER));
+    for (int32_t v = 0; v < vn_network_count(network); v++) {
+        assert_int_equal(vn_network_orders(network)[v], naive_strahler(network, v));
+    }
+}
+
+// The new node is between its child and what was above that, with the edge's radius on either side.
+static void split_one(vn_network *network, vn_rng *rng) {
+    int32_t count = vn_network_count(network), child = (int32_t)whole(rng, 0, count - 1), node;
+    int32_t parent = vn_network_parent(network)[child];
+    double p[3] = {uniform(rng, -5, 5), uniform(rng, -5, 5), 0}, radius = vn_network_radius(network, child);
+    if (parent < 0) {
+        assert_int_equal(vn_network_split(network, child, p, &node), VN_INVALID);
+        assert_int_equal(node, -1);
+        return;
+    }
+    assert_ok(vn_network_split(network, child, p, &node));
+    assert_int_equal(node, count);
+    assert_int_equal(vn_network_parent(network)[child], node);
+    assert_int_equal(vn_network_parent(network)[node], parent);
+    assert_int_equal(vn_network_first_child(network, node), child);
+    assert_int_equal(vn_network_next_child(network, child), -1);
+    assert_int_equal(vn_network_birth(network)[node], vn_network_birth(network)[child]);
+    assert_int_equal(vn_network_tree(network)[node], vn_network_tree(network)[child]);
+    assert_true(vn_network_x(network)[node] == p[0] && vn_network_y(network)[node] == p[1]);
+    assert_true(vn_network_radius(network, node) == radius && vn_network_radius(network, child) == radius);
+}
+
+static void a_split_keeps_every_law(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        vn_network *network = seed < 4 ? random_tree(2, 80, 3, seed) : shuffled(seed, NULL);
+        vn_murray_def law = {.exponent = 2.55, .tip_radius = 0.3};
+        vn_rng rng = vn_rng_make(seed);
+        if (seed % 2 == 0) {
+            assert_ok(vn_network_murray(network, &law));
+        }
+        for (int n = 0; n < 60; n++) {
+            int32_t count = vn_network_count(network);
+            vn_network_set_step(network, n);
+            put_child(network, (int32_t)whole(&rng, 0, count - 1), n, 0, 0); // tips not told upwards yet
+            put_child(network, (int32_t)whole(&rng, 0, count - 1), n, 1, 0);
+            split_one(network, &rng);
+        }
+        assert_parents_first(network);
+        if (seed % 2 == 0) {
+            assert_law(network, 2.55, 0.3);
+        }
+        assert_strahler(network);
+        vn_network_destroy(network);
+    }
+}
+
+static void a_split_with_tips_pending_counts_them_once(void **state) {
+    (void)state;
+    vn_network *network = random_tree(2, 40, 1, 2);
+    vn_murray_def law = {.exponent = 3, .tip_radius = 1};
+    vn_rng rng = vn_rng_make(9);
+    assert_ok(vn_network_murray(network, &law));
+    assert_law(network, 3, 1);
+    for (int n = 0; n < 200; n++) {
+        int32_t count = vn_network_count(network), child = (int32_t)whole(&rng, 1, count - 1);
+        double p[3] = {n, n, 0};
+        put_child(network, (int32_t)whole(&rng, 0, count - 1), n, 0, 0);
+        put_child(network, vn_network_parent(network)[child], n, 1, 0);
+        assert_ok(vn_network_split(network, child, p, NULL)); // below a node that is pending
+        put_child(network, count + 2, n, 2, 0);               // and a tip at the new node
+        if (n % 7 == 0) {
+            assert_law(network, 3, 1);
+        }
+    }
+    assert_law(network, 3, 1);
+    assert_parents_first(network);
+    vn_network_destroy(network);
+}
+
+// Which child leads does not change, not even among equals.
+static void a_split_changes_no_order(void **state) {
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        vn_network *network =
+            k % 2 == 0 ? random_tree(2, NODES, 2, (uint64_t)k) : shuffled((uint64_t)k, NULL);
+        int32_t before[NODES];
+        vn_rng rng = vn_rng_make((uint64_t)k);
+        assert_ok(vn_network_set_orders(network, (vn_order_kind)(k % 3)));
+        memcpy(before, vn_network_orders(network), sizeof before);
+        for (int n = 0; n < 200; n++) {
+            split_one(network, &rng);
+        }
+        assert_null(vn_network_orders(network));
+        assert_ok(vn_network_set_orders(network, (vn_order_kind)(k % 3)));
+        assert_memory_equal(vn_network_orders(network), before, sizeof before);
+        for (int32_t i = NODES; i < vn_network_count(network); i++) {
+            int32_t child = vn_network_first_child(network, i);
+            assert_int_equal(vn_network_orders(network)[i], vn_network_orders(network)[child]);
+        }
+        vn_network_destroy(network);
+    }
+}
+
 // ---- Radii ----
 
 static int32_t tips_below(const vn_network *network, int32_t node) {
@@ -409,6 +515,9 @@ int main(void) {
         counted_test(parents_that_form_no_forest_are_refused),
         counted_test(murrays_law_holds_however_the_network_grows),
         counted_test(a_law_may_be_replaced),
+        counted_test(a_split_keeps_every_law),
+        counted_test(a_split_changes_no_order),
+        counted_test(a_split_with_tips_pending_counts_them_once),
         counted_test(scaling_multiplies_every_length),
         counted_test(measures_are_what_counting_says),
         counted_test(an_empty_network_measures_nothing),
