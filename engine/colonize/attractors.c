@@ -23,6 +23,7 @@ vn_status vn_attractors_create(vn_attractors **out, const vn_attractors_def *def
     }
     a->dim = def->dim;
     a->seed = (uint64_t)def->seed;
+    a->serial = vn_next_serial();
     a->version = 1;
     a->free_tie = -1;
     *out = a;

@@ -74,6 +74,7 @@ struct vn_attractors {
     VN_ARRAY(uint8_t) idle; ///< how patient it still is: see VN_HIDDEN
     int32_t gone;
     uint32_t born;
+    uint64_t serial; ///< which set this is, among all of the process
     uint64_t version;
     vn_retired retired;
 

@@ -237,7 +237,7 @@ static vn_status look_again(const extension *e, int64_t tries) {
 }
 
 static bool still_grows(const vn_domain *domain) {
-    return domain->kind->margin != NULL && !domain->kind->margin->is_grown(domain);
+    return domain->kind->is_grown != NULL && !domain->kind->is_grown(domain);
 }
 
 // Seldom while veins grow elsewhere, and thoroughly when nothing else does. What even then no node sees is

@@ -4,11 +4,11 @@ typedef struct combination {
     vn_domain base;
     vn_domain *a, *b;
     vn_combination how;
-    double length; ///< of the growing operands when bounds and measure were taken
+    int64_t seen; ///< changes of the growing operands when bounds and measure were taken
 } combination;
 
-// What changes when a growing operand has grown; 0 where nothing grows.
-static double length_of(const vn_domain *domain);
+// Grows with every change of a growing operand; 0 where nothing grows.
+static int64_t changes_of(const vn_domain *domain);
 
 static void combination_destroy(vn_domain *domain) {
     combination *c = (combination *)domain;
@@ -66,17 +66,17 @@ static vn_status combination_outline(const vn_domain *domain, int32_t sides, vn_
     return status;
 }
 
-static double today(const combination *c) {
-    return length_of(c->a) + length_of(c->b);
+static int64_t today(const combination *c) {
+    return changes_of(c->a) + changes_of(c->b);
 }
 
 // After a growing operand has grown. A failure, for want of memory, leaves them as they were, and is
 // tried again.
 static void combination_refresh(vn_domain *domain) {
     combination *c = (combination *)domain;
-    double length = today(c);
-    if (domain->dim == 2 && length != c->length && vn_domain_measure_outline(domain) == VN_OK) {
-        c->length = length;
+    int64_t changes = today(c);
+    if (domain->dim == 2 && changes != c->seen && vn_domain_measure_outline(domain) == VN_OK) {
+        c->seen = changes;
     }
 }
 
@@ -87,11 +87,8 @@ static const vn_domain_kind flat_kind = {.name = "combination",
                                          .outline = combination_outline,
                                          .refresh = combination_refresh};
 
-static double length_of(const vn_domain *domain) {
-    if (domain->kind == &flat_kind) {
-        return today((const combination *)domain);
-    }
-    return domain->kind->margin != NULL ? domain->kind->margin->length(domain) : 0;
+static int64_t changes_of(const vn_domain *domain) {
+    return domain->kind == &flat_kind ? today((const combination *)domain) : domain->changes;
 }
 
 static const vn_domain_kind solid_kind = {.name = "combination",
@@ -146,7 +143,7 @@ static vn_status combine_kept(vn_domain **out, const vn_domain *a, const vn_doma
     c->a = vn_domain_retain(a);
     c->b = vn_domain_retain(b);
     c->how = how;
-    c->length = today(c);
+    c->seen = today(c);
     memcpy(c->base.unit, a->unit, sizeof c->base.unit);
     vn_status status = VN_OK;
     if (a->dim == 2) {

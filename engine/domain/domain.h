@@ -16,8 +16,7 @@ extern const vn_schema vn_profile_schema;
 typedef struct vn_margin {
     /// The length at which the margin passes @p p; INFINITY when it never does.
     double (*arrival)(const vn_domain *domain, const double p[3]);
-    double (*length)(const vn_domain *domain); ///< today's
-    bool (*is_grown)(const vn_domain *domain);
+    double (*length)(const vn_domain *domain);                               ///< today's
     void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
 } vn_margin;
 
@@ -33,6 +32,8 @@ typedef struct vn_domain_kind {
     /// NULL where there are no flat outlines.
     vn_status (*outline)(const vn_domain *domain, int32_t sides, vn_rings *out);
     const vn_margin *margin; ///< NULL: it does not move
+    /// Whether a growing shape has come to its end; NULL: it does not grow.
+    bool (*is_grown)(const vn_domain *domain);
     /// Bring bounds and measure up to date with what it is made of; NULL: they are always.
     void (*refresh)(vn_domain *domain);
 } vn_domain_kind;
@@ -46,6 +47,7 @@ struct vn_domain {
     bool polygonal; ///< its outline is exact
     vn_box bounds;
     double measure;
+    int64_t changes; ///< how often its shape has changed; 0 where nothing grows
     char unit[8];
 };
 

@@ -15,30 +15,17 @@ vn_growth_def vn_growth_def_default(void) {
     return growth_default;
 }
 
-void vn_growth_to_shape(const vn_growth *growth, double length, const double p[3], double q[3]) {
-    double scale = growth->own_length / length;
-    for (int k = 0; k < 3; k++) {
-        q[k] = k < growth->base.dim ? growth->origin[k] + (p[k] - growth->origin[k]) * scale : p[k];
-    }
-}
-
-void vn_growth_resize(vn_growth *growth, double length) {
-    double scale = length / growth->own_length;
-    growth->length = length;
-    growth->base.measure = growth->shape->measure * pow(scale, growth->base.dim);
-    for (int k = 0; k < growth->base.dim; k++) {
-        double origin = growth->origin[k];
-        growth->base.bounds.min[k] = origin + (growth->shape->bounds.min[k] - origin) * scale;
-        growth->base.bounds.max[k] = origin + (growth->shape->bounds.max[k] - origin) * scale;
-    }
-}
-
 void vn_growth_destroy(vn_domain *domain) {
-    vn_domain_release(((vn_growth *)domain)->shape);
+    vn_growth *growth = (vn_growth *)domain;
+    if (growth->kind->destroy != NULL) {
+        growth->kind->destroy(growth);
+    }
+    vn_domain_release(growth->shape);
+    vn_domain_release(growth->today);
+    vn_array_free(&growth->carried);
 }
 
-// The lowest point; of a flat base, its middle.
-static void lowest_point(const vn_rings *rings, double origin[3]) {
+void vn_growth_lowest_point(const vn_rings *rings, double origin[3]) {
     double lowest = INFINITY, left = 0, right = 0;
     for (int32_t i = 0; i < rings->y.count; i++) {
         double x = rings->x.data[i], y = rings->y.data[i];
@@ -50,44 +37,76 @@ static void lowest_point(const vn_rings *rings, double origin[3]) {
     origin[1] = lowest;
 }
 
-static vn_status find_origin(vn_growth *growth, const vn_growth_def *def) {
-    if (def->has_origin) {
-        if (!vn_finite(def->origin)) {
-            return vn_fail(VN_INVALID, "marginal.origin must be finite");
+static vn_status find_origin(vn_growth *growth, const double *given) {
+    if (given != NULL) {
+        if (!vn_finite(given)) {
+            return vn_fail(VN_INVALID, "%s.origin must be finite", growth->kind->name);
         }
-        memcpy(growth->origin, def->origin, sizeof growth->origin);
+        memcpy(growth->origin, given, sizeof growth->origin);
         return VN_OK;
     }
     vn_rings rings = {0};
     vn_status status =
         growth->base.dim == 2 ? vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings) : VN_OK;
     if (rings.y.count > 0) {
-        lowest_point(&rings, growth->origin);
+        vn_growth_lowest_point(&rings, growth->origin);
     }
     vn_rings_free(&rings);
     return status;
 }
 
-vn_status vn_growth_make(vn_growth **out, const vn_domain_kind *kind, const vn_growth_def *def) {
-    *out = NULL;
-    if (def->domain->kind->margin != NULL) {
+static vn_status check_shape(const vn_growth_kind *kind, const vn_domain *domain) {
+    if (domain->kind->is_grown != NULL) {
         return vn_fail(VN_INVALID, "a growth of a growing domain: give the shape itself");
     }
-    vn_growth *growth = vn_domain_new(kind, sizeof *growth, def->domain->dim);
-    if (growth == NULL) {
-        return vn_fail_memory("a growth", sizeof *growth);
+    if (kind->move != NULL && domain->dim != 2) {
+        return vn_fail(VN_INVALID, "%s.domain has %d dimensions; its tissue moves in the plane", kind->name,
+                       domain->dim);
     }
-    growth->shape = vn_domain_retain(def->domain);
-    growth->own_length = def->domain->bounds.max[1] - def->domain->bounds.min[1];
-    memcpy(growth->base.unit, def->domain->unit, sizeof growth->base.unit);
-    growth->from = growth->to = growth->own_length;
-    vn_status status = find_origin(growth, def);
+    return VN_OK;
+}
+
+vn_status vn_growth_make(vn_growth **out, const vn_growth_kind *kind, const vn_growth_base *base) {
+    *out = NULL;
+    VN_TRY(check_shape(kind, base->domain));
+    vn_growth *growth = vn_domain_new(&kind->domain, kind->size, base->domain->dim);
+    if (growth == NULL) {
+        return vn_fail_memory("a growth", kind->size);
+    }
+    growth->kind = kind;
+    growth->shape = vn_domain_retain(base->domain);
+    growth->own_length = base->domain->bounds.max[1] - base->domain->bounds.min[1];
+    memcpy(growth->base.unit, base->domain->unit, sizeof growth->base.unit);
+    growth->length = growth->from = growth->to = growth->own_length;
+    growth->unit = 1;
+    growth->split = base->split;
+    vn_status status = find_origin(growth, base->origin);
     if (status != VN_OK) {
         vn_growth_release(growth);
         return status;
     }
     vn_growth_resize(growth, growth->own_length);
     *out = growth;
+    return VN_OK;
+}
+
+vn_status vn_growth_set_lengths(vn_growth *growth, const vn_growth_def *def) {
+    const char *name = growth->kind->name;
+    growth->to = def->to > 0 ? def->to : growth->own_length;
+    growth->from = def->from > 0 ? def->from : growth->to / 20;
+    growth->step = def->step > 0 ? def->step : (growth->to - growth->from) / 100;
+    growth->length = growth->from;
+    if (growth->from > growth->to) {
+        return vn_fail(VN_INVALID, "%s.from = %g must not be above %s.to = %g: a %s cannot shrink", name,
+                       growth->from, name, growth->to,
+                       growth->base.kind->margin != NULL ? "margin" : "blade");
+    }
+    double steps = growth->to > growth->from ? ceil((growth->to - growth->from) / growth->step) : 0;
+    if (steps > 1e8) {
+        return vn_fail(VN_INVALID, "%s.step = %g takes more than 1e8 steps from %g to %g; give a longer one",
+                       name, growth->step, growth->from, growth->to);
+    }
+    growth->steps = (int32_t)steps;
     return VN_OK;
 }
 
@@ -108,17 +127,20 @@ static vn_status still_outline(const vn_domain *domain, int32_t sides, vn_rings 
     return vn_domain_outline(((const vn_growth *)domain)->shape, sides, out);
 }
 
-static const vn_domain_kind still_kind = {.name = "blade",
-                                          .destroy = vn_growth_destroy,
-                                          .contains = still_contains,
-                                          .closest = still_closest,
-                                          .sees = still_sees,
-                                          .outline = still_outline};
+static const vn_growth_kind still_kind = {.name = "none",
+                                          .size = sizeof(vn_growth),
+                                          .domain = {.name = "blade",
+                                                     .destroy = vn_growth_destroy,
+                                                     .contains = still_contains,
+                                                     .closest = still_closest,
+                                                     .sees = still_sees,
+                                                     .outline = still_outline}};
 
 vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def) {
     *out = NULL;
     VN_TRY(vn_check_def(&vn_none_schema, def));
-    return vn_growth_make(out, &still_kind, def);
+    vn_growth_base base = {def->domain, def->has_origin ? def->origin : NULL, 0};
+    return vn_growth_make(out, &still_kind, &base);
 }
 
 void vn_growth_release(vn_growth *growth) {
@@ -127,21 +149,91 @@ void vn_growth_release(vn_growth *growth) {
     }
 }
 
-bool vn_growth_advance(vn_growth *growth) {
-    if (growth->length >= growth->to) {
-        return false;
+// Lengths decide where they are what grows: how many steps they take is rounded.
+bool vn_growth_is_grown(const vn_growth *growth) {
+    return vn_growth_moves(growth) ? growth->time >= growth->steps : growth->length >= growth->to;
+}
+
+bool vn_growth_is_grown_domain(const vn_domain *domain) {
+    return vn_growth_is_grown((const vn_growth *)domain);
+}
+
+vn_status vn_growth_advance(vn_growth *growth, bool *growing) {
+    *growing = false;
+    growth->stepped = false;
+    if (vn_growth_is_grown(growth)) {
+        return VN_OK;
     }
+    VN_TRY(growth->kind->step(growth, growth->time + 1));
     growth->time++;
-    vn_growth_resize(growth, fmin(growth->from + growth->time * growth->step, growth->to));
-    return true;
+    growth->base.changes++;
+    growth->stepped = true;
+    growth->carried.count = 0;
+    *growing = true;
+    return VN_OK;
+}
+
+static vn_status check_time(const vn_growth *growth, double time) {
+    if (!(time >= 0 && time <= 1e9)) {
+        return vn_fail(VN_INVALID, "growth:map of %s: the time %g must be from 0 to 1e9", growth->kind->name,
+                       time);
+    }
+    return VN_OK;
+}
+
+static vn_status move(vn_growth *growth, double p[3], double t1, double t2) {
+    double q[3];
+    VN_TRY(growth->kind->prepare(growth, t1, t2));
+    if (!growth->kind->move(growth, p, q) || !vn_finite(q)) {
+        return vn_fail(VN_INFEASIBLE, "growth:map of %s: what is at (%g, %g) at time %g has no place at %g",
+                       growth->kind->name, p[0], p[1], t1, t2);
+    }
+    memcpy(p, q, 3 * sizeof *p);
+    return VN_OK;
+}
+
+// Where a stepwise move from @p t1 to @p t2 stops first.
+static double next_stop(double t1, double t2) {
+    return t1 < t2 ? fmin(floor(t1) + 1, t2) : fmax(ceil(t1) - 1, t2);
+}
+
+static vn_status move_through(vn_growth *growth, double p[3], double t1, double t2) {
+    for (double next; t1 != t2; t1 = next) {
+        next = growth->kind->stepwise ? next_stop(t1, t2) : t2;
+        VN_TRY(move(growth, p, t1, next));
+    }
+    return VN_OK;
+}
+
+vn_status vn_growth_map(vn_growth *growth, const double p[3], double t1, double t2, double q[3]) {
+    double moved[3] = {p[0], p[1], p[2]};
+    q[0] = q[1] = q[2] = 0;
+    if (!vn_finite(moved)) {
+        return vn_fail(VN_INVALID, "growth:map: the point (%g, %g) is not finite", moved[0], moved[1]);
+    }
+    VN_TRY(check_time(growth, t1));
+    VN_TRY(check_time(growth, t2));
+    if (vn_growth_moves(growth)) {
+        VN_TRY(move_through(growth, moved, t1, t2));
+    }
+    memcpy(q, moved, sizeof moved);
+    return VN_OK;
 }
 
 vn_domain *vn_growth_domain(vn_growth *growth) {
     return &growth->base;
 }
 
+const char *vn_growth_kind_name(const vn_growth *growth) {
+    return growth->kind->name;
+}
+
 int32_t vn_growth_time(const vn_growth *growth) {
     return growth->time;
+}
+
+int32_t vn_growth_steps(const vn_growth *growth) {
+    return growth->steps;
 }
 
 double vn_growth_length(const vn_growth *growth) {
@@ -153,8 +245,7 @@ double vn_growth_final_length(const vn_growth *growth) {
 }
 
 double vn_growth_unit(const vn_growth *growth) {
-    (void)growth;
-    return 1;
+    return growth->unit;
 }
 
 void vn_growth_origin(const vn_growth *growth, double p[3]) {

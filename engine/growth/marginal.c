@@ -27,45 +27,6 @@ static const vn_growth *growth_of(const vn_domain *domain) {
     return (const vn_growth *)domain;
 }
 
-static bool marginal_contains(const vn_domain *domain, const double p[3]) {
-    double q[3];
-    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, p, q);
-    return vn_domain_contains(growth_of(domain)->shape, q);
-}
-
-static double marginal_closest(const vn_domain *domain, const double p[3], double q[3]) {
-    const vn_growth *growth = growth_of(domain);
-    double scale = growth->length / growth->own_length;
-    double in_shape[3], border[3];
-    vn_growth_to_shape(growth, growth->length, p, in_shape);
-    double d = growth->shape->kind->closest(growth->shape, in_shape, border);
-    for (int k = 0; k < 3; k++) {
-        q[k] = k < domain->dim ? growth->origin[k] + (border[k] - growth->origin[k]) * scale : p[k];
-    }
-    return d * scale;
-}
-
-static bool marginal_sees(const vn_domain *domain, const double a[3], const double b[3]) {
-    double qa[3], qb[3];
-    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, a, qa);
-    vn_growth_to_shape(growth_of(domain), growth_of(domain)->length, b, qb);
-    return vn_domain_sees(growth_of(domain)->shape, qa, qb);
-}
-
-static vn_status marginal_outline(const vn_domain *domain, int32_t sides, vn_rings *out) {
-    const vn_growth *growth = growth_of(domain);
-    double scale = growth->length / growth->own_length;
-    vn_rings rings = {0};
-    vn_status status = vn_domain_outline(growth->shape, sides, &rings);
-    for (int32_t i = 0; i < rings.x.count; i++) {
-        rings.x.data[i] = growth->origin[0] + (rings.x.data[i] - growth->origin[0]) * scale;
-        rings.y.data[i] = growth->origin[1] + (rings.y.data[i] - growth->origin[1]) * scale;
-    }
-    status = status == VN_OK ? vn_rings_append(out, &rings) : status;
-    vn_rings_free(&rings);
-    return status;
-}
-
 // Star-shaped, so a point once inside stays inside: the moment is found by halving.
 static double marginal_arrival(const vn_domain *domain, const double p[3]) {
     const vn_growth *growth = growth_of(domain);
@@ -98,20 +59,25 @@ static void marginal_grown(const vn_domain *domain, vn_box *bounds, double *meas
     *measure = grown.base.measure;
 }
 
-static bool marginal_is_grown(const vn_domain *domain) {
-    return growth_of(domain)->length >= growth_of(domain)->to;
+static vn_status marginal_step(vn_growth *growth, int32_t time) {
+    growth->length = fmin(growth->from + time * growth->step, growth->to);
+    vn_growth_resize(growth, growth->length);
+    return VN_OK;
 }
 
-static const vn_margin marginal_margin = {marginal_arrival, marginal_length, marginal_is_grown,
-                                          marginal_grown};
+static const vn_margin marginal_margin = {marginal_arrival, marginal_length, marginal_grown};
 
-static const vn_domain_kind marginal_kind = {.name = "blade",
-                                             .destroy = vn_growth_destroy,
-                                             .contains = marginal_contains,
-                                             .closest = marginal_closest,
-                                             .sees = marginal_sees,
-                                             .outline = marginal_outline,
-                                             .margin = &marginal_margin};
+static const vn_growth_kind marginal_kind = {.name = "marginal",
+                                             .size = sizeof(vn_growth),
+                                             .domain = {.name = "blade",
+                                                        .destroy = vn_growth_destroy,
+                                                        .contains = vn_scaled_contains,
+                                                        .closest = vn_scaled_closest,
+                                                        .sees = vn_scaled_sees,
+                                                        .outline = vn_scaled_outline,
+                                                        .margin = &marginal_margin,
+                                                        .is_grown = vn_growth_is_grown_domain},
+                                             .step = marginal_step};
 
 // Every edge must turn left as seen from the origin. An edge whose line passes the origin on the wrong side
 // by less than a millionth of the blade is the rounding of whoever drew it.
@@ -143,29 +109,13 @@ static vn_status check_outline(const vn_growth *growth) {
     return status;
 }
 
-static vn_status set_lengths(vn_growth *growth, const vn_growth_def *def) {
-    growth->to = def->to > 0 ? def->to : growth->own_length;
-    growth->from = def->from > 0 ? def->from : growth->to / 20;
-    growth->step = def->step > 0 ? def->step : (growth->to - growth->from) / 100;
-    if (growth->from > growth->to) {
-        return vn_fail(VN_INVALID,
-                       "marginal.from = %g must not be above marginal.to = %g: a margin cannot shrink",
-                       growth->from, growth->to);
-    }
-    if (growth->to > growth->from && (growth->to - growth->from) / growth->step > 1e8) {
-        return vn_fail(VN_INVALID,
-                       "marginal.step = %g takes more than 1e8 steps from %g to %g; give a longer one",
-                       growth->step, growth->from, growth->to);
-    }
-    return VN_OK;
-}
-
 vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def) {
     *out = NULL;
     VN_TRY(vn_check_def(&vn_marginal_schema, def));
+    vn_growth_base base = {def->domain, def->has_origin ? def->origin : NULL, 0};
     vn_growth *growth;
-    VN_TRY(vn_growth_make(&growth, &marginal_kind, def));
-    vn_status status = set_lengths(growth, def);
+    VN_TRY(vn_growth_make(&growth, &marginal_kind, &base));
+    vn_status status = vn_growth_set_lengths(growth, def);
     status = status == VN_OK ? check_outline(growth) : status;
     if (status != VN_OK) {
         vn_growth_release(growth);

@@ -5,6 +5,7 @@
 #define VENULE_ATTRACTORS_H
 
 #include "venule/domain.h"
+#include "venule/growth.h"
 #include "venule/network.h"
 
 #ifdef __cplusplus
@@ -58,6 +59,10 @@ VN_API vn_throw_def vn_throw_def_default(void);
 VN_API vn_status vn_throw(vn_attractors *attractors, const vn_throw_def *def, int32_t *accepted);
 /// Release the dormant attractors that the margin of the domain has passed; what vn_throw() does by itself.
 VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int32_t *released);
+
+/// Move the attractors as the last step of @p growth moved the tissue; what each remembers of nodes is looked
+/// for anew. None is dropped, and those that wait for a margin stay. Once a step, as vn_growth_carry().
+VN_API vn_status vn_attractors_carry(vn_attractors *attractors, vn_growth *growth);
 
 typedef struct vn_influence_def {
     int mode; ///< 0 "nearest": each attractor influences the node nearest to it; 1 "relative": its relative

@@ -64,7 +64,8 @@ static int growth_advance(lua_State *L) {
     vn_growth *growth = vnl_check(L, 1, &vnl_growth_class);
     check_handed(L);
     vn_network *network = first_network(L);
-    bool growing = vn_growth_advance(growth);
+    bool growing;
+    vnl_try(L, vn_growth_advance(growth, &growing));
     for (int i = 2; i <= lua_gettop(L); i++) {
         vn_attractors *attractors = vnl_test(L, i, &vnl_attractors_class);
         int32_t released;

@@ -30,6 +30,12 @@ void assert_near(double value, double expected, double tolerance) {
     }
 }
 
+bool advance(vn_growth *growth) {
+    bool growing = false;
+    assert_ok(vn_growth_advance(growth, &growing));
+    return growing;
+}
+
 vn_network *network_of(int dim) {
     vn_network_def def = vn_network_def_default();
     vn_network *network = NULL;

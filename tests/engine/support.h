@@ -26,6 +26,9 @@ int check_bytes(void **state);
 void check_message(const char *part, const char *file, int line);
 void assert_near(double value, double expected, double tolerance);
 
+/// One step; whether it grew.
+bool advance(vn_growth *growth);
+
 vn_network *network_of(int dim);
 int32_t put_root(vn_network *network, double x, double y, double z);
 int32_t put_child(vn_network *network, int32_t parent, double x, double y, double z);

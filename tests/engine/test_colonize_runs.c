@@ -231,7 +231,7 @@ static void a_margin_releases_what_it_passes(void **state) {
             assert_true(attractors->dormant.data[i].arrival > vn_growth_length(growth));
         }
         before = vn_growth_length(growth);
-        vn_growth_advance(growth);
+        advance(growth);
         assert_ok(before < 5 ? vn_throw(attractors, &throw, &accepted)
                              : vn_release(attractors, network, &accepted));
     } while (before < vn_growth_length(growth));
@@ -410,7 +410,7 @@ static void a_growing_blade_keeps_its_laws(void **state) {
         assert_ok(vn_throw(attractors, &throw, &accepted));
         assert_none_in_reach(attractors, network, 0.35);
         done = one_step(network, attractors, &influence, &s);
-        idle = vn_growth_advance(growth) || done > 0 ? 0 : idle + 1;
+        idle = advance(growth) || done > 0 ? 0 : idle + 1;
     }
     assert_int_equal(vn_attractors_count(attractors), 0);
     assert_int_equal(vn_attractors_dormant(attractors), 0);
@@ -574,7 +574,7 @@ static vn_status blade_run(vn_domain *shape) {
     for (int step = 0; status == VN_OK && step < 5; step++) {
         vn_throw_def throw = {.domain = vn_growth_domain(growth), .count = 80, .spacing = 0.1, .rng = &rng};
         status = vn_throw(attractors, &throw, &n);
-        vn_growth_advance(growth);
+        advance(growth);
     }
     vn_attractors_destroy(attractors);
     vn_growth_release(growth);

@@ -436,10 +436,10 @@ static void a_margin_passes_each_point_once(void **state) {
             double arrival = today->kind->margin->arrival(today, p);
             assert_int_equal(vn_domain_contains(today, p), length >= arrival);
         }
-    } while (vn_growth_advance(growth));
+    } while (advance(growth));
     assert_true(vn_growth_length(growth) == 10);
     assert_int_equal(vn_growth_time(growth), 32);
-    assert_false(vn_growth_advance(growth));
+    assert_false(advance(growth));
     assert_int_equal(vn_growth_time(growth), 32);
     vn_growth_release(growth);
     vn_domain_release(shape);
@@ -457,7 +457,7 @@ static void growth_ends_exactly_where_it_should(void **state) {
         assert_ok(vn_growth_marginal(&growth, &def));
         double to = cases[k][1] > 0 ? cases[k][1] : 12, from = cases[k][0] > 0 ? cases[k][0] : to / 20;
         assert_true(vn_growth_length(growth) == from && vn_growth_final_length(growth) == to);
-        while (vn_growth_advance(growth)) {
+        while (advance(growth)) {
             steps++;
         }
         assert_true(vn_growth_length(growth) == to);
@@ -475,7 +475,7 @@ static void a_domain_that_does_not_grow_stays(void **state) {
     vn_growth_def def = {.domain = shape};
     vn_growth *growth = NULL;
     assert_ok(vn_growth_none(&growth, &def));
-    assert_false(vn_growth_advance(growth));
+    assert_false(advance(growth));
     assert_near(vn_growth_length(growth), 12, 0);
     assert_near(vn_domain_measure(vn_growth_domain(growth)), vn_domain_measure(shape), 0);
     vn_growth_release(growth);

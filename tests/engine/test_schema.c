@@ -7,10 +7,11 @@
 #include "growth/growth.h"
 
 static const vn_schema *const schemas[] = {
-    &vn_network_schema, &vn_murray_schema,   &vn_attractors_schema, &vn_throw_schema, &vn_influence_schema,
-    &vn_extend_schema,  &vn_consume_schema,  &vn_disk_schema,       &vn_box_schema,   &vn_profile_schema,
-    &vn_none_schema,    &vn_marginal_schema, &vn_canvas_schema,     &vn_fill_schema,  &vn_stroke_schema,
-    &vn_dots_schema,    &vn_text_schema,     &vn_svg_schema,
+    &vn_network_schema, &vn_murray_schema,   &vn_attractors_schema, &vn_throw_schema,   &vn_influence_schema,
+    &vn_extend_schema,  &vn_consume_schema,  &vn_disk_schema,       &vn_box_schema,     &vn_profile_schema,
+    &vn_none_schema,    &vn_marginal_schema, &vn_isogonic_schema,   &vn_uniform_schema, &vn_rerg_schema,
+    &vn_morph_schema,   &vn_canvas_schema,   &vn_fill_schema,       &vn_stroke_schema,  &vn_dots_schema,
+    &vn_text_schema,    &vn_svg_schema,
 };
 enum { SCHEMAS = sizeof schemas / sizeof *schemas };
 
