@@ -91,16 +91,13 @@ static bool march(const vn_domain *domain, const double a[3], const double b[3])
 }
 
 // An end on the border, where a petiole is, counts as inside: the line is looked at from a millionth of
-// the bounds on.
-static bool pull_inside(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
-    memcpy(p, from, 3 * sizeof *p);
-    if (domain->kind->contains(domain, from)) {
-        return true;
-    }
+// the bounds on. False when it is farther from the border than that, or the line leaves there.
+static bool step_off_border(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
     double q[3];
     double nudge = 1e-6 * sqrt(vn_distance2(domain->bounds.min, domain->bounds.max));
     double length = sqrt(vn_distance2(from, to));
-    if (domain->kind->closest(domain, from, q) > nudge || length <= nudge) {
+    memcpy(p, from, 3 * sizeof *p);
+    if (length <= nudge || domain->kind->closest(domain, from, q) > nudge) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
@@ -109,12 +106,29 @@ static bool pull_inside(const vn_domain *domain, const double from[3], const dou
     return domain->kind->contains(domain, p);
 }
 
+static bool pull_inside(const vn_domain *domain, const double from[3], const double to[3], double p[3]) {
+    memcpy(p, from, 3 * sizeof *p);
+    return domain->kind->contains(domain, from) || step_off_border(domain, from, to, p);
+}
+
+static bool is_free(const vn_domain *domain, const double a[3], const double b[3]) {
+    return domain->kind->sees != NULL ? domain->kind->sees(domain, a, b) : march(domain, a, b);
+}
+
+// contains() may say of a point on the border that it is inside: the line touches the border there all the
+// same.
+static bool sees_from_border(const vn_domain *domain, const double a[3], const double b[3]) {
+    double p[3], q[3];
+    bool from = step_off_border(domain, a, b, p), to = step_off_border(domain, b, a, q);
+    return (from || to) && is_free(domain, from ? p : a, to ? q : b);
+}
+
 bool vn_domain_sees(const vn_domain *domain, const double a[3], const double b[3]) {
     double p[3], q[3];
     if (!pull_inside(domain, a, b, p) || !pull_inside(domain, b, a, q)) {
         return false;
     }
-    return domain->kind->sees != NULL ? domain->kind->sees(domain, p, q) : march(domain, p, q);
+    return is_free(domain, p, q) || sees_from_border(domain, p, q);
 }
 
 vn_status vn_domain_fail_dart(const vn_domain *domain) {

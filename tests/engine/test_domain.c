@@ -415,6 +415,24 @@ static void combinations_that_leave_nothing_are_infeasible(void **state) {
     }
 }
 
+// A petiole may lie anywhere on the border, on edges that contains() counts in and on those it counts out.
+static void a_border_point_sees_into_the_shape(void **state) {
+    (void)state;
+    static const double square[] = {0, 0, 4, 0, 4, 4, 0, 4}, middle[3] = {2.1, 1.9, 0},
+                        beyond[3] = {2.1, 9, 0};
+    vn_domain *domain = polygon_of(square, 4);
+    for (int side = 0; side < 4; side++) {
+        for (int k = 0; k <= 8; k++) {
+            double s = 0.5 * k, on[4][3] = {{s, 0, 0}, {4, s, 0}, {s, 4, 0}, {0, s, 0}};
+            assert_true(vn_domain_sees(domain, on[side], middle));
+            assert_true(vn_domain_sees(domain, middle, on[side]));
+            assert_false(vn_domain_sees(domain, on[side], beyond));
+        }
+    }
+    assert_false(vn_domain_sees(domain, beyond, middle));
+    vn_domain_release(domain);
+}
+
 // ---- Growth ----
 
 static void a_margin_passes_each_point_once(void **state) {
@@ -558,6 +576,7 @@ int main(void) {
         counted_test(bad_numbers_are_refused_with_their_values),
         counted_test(bad_profiles_are_refused),
         counted_test(combinations_that_leave_nothing_are_infeasible),
+        counted_test(a_border_point_sees_into_the_shape),
         counted_test(a_margin_passes_each_point_once),
         counted_test(growth_ends_exactly_where_it_should),
         counted_test(a_domain_that_does_not_grow_stays),
