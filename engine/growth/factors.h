@@ -15,6 +15,11 @@ typedef struct vn_factors {
 vn_status vn_factors_set(vn_factors *factors, const char *what, const double *samples, int32_t count,
                          double low, double high);
 void vn_factors_free(vn_factors *factors);
+/// Sample the smooth curve through @p points points (y, f), y ascending, at evenly spaced heights. It
+/// overshoots no point, and is constant beyond the first and the last. VN_INVALID names the point that is
+/// wrong.
+vn_status vn_factors_spline(double *out, int32_t samples, const char *what, const double *yf, int32_t points,
+                            double low, double high);
 double vn_factors_at(const vn_factors *factors, double y0);
 
 /// y(t) = ∫₀^{y₀} f^t dy at every sample, for one t: exact for the f above, in between too.

@@ -59,7 +59,7 @@ vn_status vn_network_split(vn_network *network, int32_t child, const double p[3]
         *node = -1;
     }
     if (child < 0 || child >= network->x.count || network->parent.data[child] < 0) {
-        return vn_fail(VN_INVALID, "a split needs a node with a parent: there is no edge at node %d", child);
+        return vn_fail(VN_INVALID, "a split needs a node with a parent: a root has no edge above it");
     }
     VN_TRY(vn_network_make_room(network, p));
     VN_TRY(vn_array_reserve(&network->sequence, (int64_t)network->x.count + 1));

@@ -63,6 +63,17 @@ static int network_add(lua_State *L) {
     return 1;
 }
 
+static int network_split(lua_State *L) {
+    vn_network *network = check_network(L);
+    double p[3];
+    int32_t child = check_node(L, 2, network, "network:split");
+    int32_t node;
+    vnl_check_coordinates(L, 3, vn_network_dim(network), p);
+    vnl_try(L, vn_network_split(network, child, p, &node));
+    lua_pushinteger(L, node + 1);
+    return 1;
+}
+
 static int network_join(lua_State *L) {
     vn_network *network = check_network(L);
     int32_t a = check_node(L, 2, network, "network:join");
@@ -246,6 +257,8 @@ static const vnl_function methods[] = {
      NULL},
     {"add", network_add, "(parent: integer, x: number, y: number, z?: number): integer", NULL,
      "Add a child of a node; its index.", NULL},
+    {"split", network_split, "(node: integer, x: number, y: number, z?: number): integer", NULL,
+     "Put a new node into the edge between a node and its parent; its index.", NULL},
     {"join", network_join, "(a: integer, b: integer, radius?: number)", NULL,
      "Close a loop by an edge from a to b, whose parent a becomes too. `radius` holds while no law does.",
      NULL},

@@ -16,7 +16,7 @@ local rows = {
   {"attraction_distance", nil, type = "number", above = 0, unit = "length", doc = "sources farther than this draw no vein; left out: any distance"},
   {"darts", nil, type = "number", above = 0, unit = "darts/length²", required = true, doc = "ρ: darts thrown per area and step; under marginal growth, per area once"},
   {"neighborhood", "nearest", choices = {"nearest", "relative", "urquhart"}, doc = "which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these"},
-  {"vein_steps", 1, type = "integer", min = 1, max = 1000, doc = "vein steps to one growth step"},
+  {"vein_steps", nil, type = "integer", min = 1, max = 1000, doc = "vein steps to one growth step; left out: as many as keep pace with the tip"},
   {"stop", "reached", choices = {"reached", "grown"}, doc = "end when every source is reached, or as soon as the blade is grown"},
   {"murray", nil, type = "table", doc = "{exponent=, tip_radius=}: radii by Murray's law"},
   {"unit", nil, type = "string", doc = "length unit that files carry"},
@@ -36,29 +36,49 @@ local function as_growth(domain)
   return getmetatable(domain).__name == "venule.growth" and domain or venule.growth.none {domain = domain}
 end
 
+-- How many vein steps a growth step takes for veins to just keep pace with the tip (READINGS R7). A segment D is D/L of
+-- the blade at length L, and all of them make up the whole: Σ D/L_t = 1. Where L grows by ΔL a step, that is D/ΔL · ln(L_f/L_i);
+-- where it grows by a factor, D · (1/L_i − 1/L_f) · steps / ln(L_f/L_i).
+local function keep_pace(blade, segment)
+  local first, last, steps = blade.length, blade.final_length, blade.steps
+  local n = 1
+  if last > first and blade.kind == "isogonic" then
+    n = (last - first) / steps / segment / math.log(last / first)
+  elseif last > first and (blade.kind == "rerg" or blade.kind == "uniform") then
+    n = math.log(last / first) / (steps * segment * (1 / first - 1 / last))
+  end
+  return math.tointeger(math.ceil(math.min(math.max(n, 1), 1000)))
+end
+
 --- Open venation, ready to grow: s:step(), s:run{}, s.network, s.attractors.
 local function venation(given)
   local o = options.read("venation", rows, given, 2)
   o.vein_distance = o.vein_distance or o.birth_distance
   local blade = as_growth(o.domain)
-  if not o.birth_distance and blade.length >= blade.final_length then
+  o.vein_steps = o.vein_steps or keep_pace(blade, o.segment_length)
+  if not o.birth_distance and blade.grown then
     error("venation: `birth_distance` is missing: on a blade that stays, sources would never cease to appear without it", 2)
   end
   return setmetatable({
     options = o,
     blade = blade,
+    grows = not blade.grown,
     network = start_network(o, blade),
     attractors = venule.attractors {},
     idle = 0,
   }, Venation)
 end
 
+local function in_units(length, unit)
+  return length and length * unit
+end
+
 function Venation:vein_step()
-  local o, net, auxin = self.options, self.network, self.attractors
+  local o, net, auxin, unit = self.options, self.network, self.attractors, self.blade.unit
   local closed = o.neighborhood ~= "nearest"
-  local influence = auxin:influence(net, {mode = o.neighborhood, within = o.attraction_distance})
-  local added = net:extend(influence, {length = o.segment_length, domain = self.blade, meet = closed and "join" or "cross"})
-  auxin:consume(net, {distance = o.kill_distance, mode = closed and "tagged" or "any"})
+  local influence = auxin:influence(net, {mode = o.neighborhood, within = in_units(o.attraction_distance, unit)})
+  local added = net:extend(influence, {length = o.segment_length * unit, domain = self.blade, meet = closed and "join" or "cross"})
+  auxin:consume(net, {distance = o.kill_distance * unit, mode = closed and "tagged" or "any"})
   return added
 end
 
@@ -70,8 +90,8 @@ function Venation:is_done(growing, added, accepted)
   if growing then return false end
   if self.options.stop == "grown" then return true end
   self.idle = (added > 0 or accepted > 0) and 0 or self.idle + 1
-  if self.blade.final_length > self.start_length then return #self.attractors == 0 or self.idle > 0 end
-  local darts_a_step = self.options.darts * self.blade:measure()
+  if self.grows then return #self.attractors == 0 or self.idle > 0 end
+  local darts_a_step = self.options.darts / self.blade.unit ^ 2 * self.blade:measure()
   return self.idle >= PATIENCE * math.max(1, 1 / darts_a_step)
 end
 
@@ -79,10 +99,10 @@ end
 function Venation:step()
   if self.done then return false end
   local o, net, auxin, blade = self.options, self.network, self.attractors, self.blade
-  self.start_length = self.start_length or blade.length
-  local growing = blade:advance(net, auxin)
-  local accepted = auxin:throw {
-    domain = blade, density = o.darts, spacing = o.birth_distance, clearance = o.vein_distance, network = net, rng = o.rng,
+  local growing, unit = blade:advance(net, auxin), blade.unit
+  local accepted = (self.grows and not growing) and 0 or auxin:throw { -- new sources come with new tissue
+    domain = blade, density = o.darts / unit ^ 2, spacing = in_units(o.birth_distance, unit),
+    clearance = in_units(o.vein_distance, unit), network = net, rng = o.rng,
   }
   local added = 0
   for _ = 1, o.vein_steps do added = added + self:vein_step() end
