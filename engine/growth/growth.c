@@ -198,9 +198,10 @@ static double next_stop(double t1, double t2) {
 }
 
 static vn_status move_through(vn_growth *growth, double p[3], double t1, double t2) {
-    for (double next; t1 != t2; t1 = next) {
-        next = growth->kind->stepwise ? next_stop(t1, t2) : t2;
+    while (t1 != t2) {
+        double next = growth->kind->stepwise ? next_stop(t1, t2) : t2;
         VN_TRY(move(growth, p, t1, next));
+        t1 = next;
     }
     return VN_OK;
 }

@@ -46,16 +46,13 @@ vn_morph_def vn_morph_def_default(void) {
 typedef struct track {
     vn_rings rings;
     VN_ARRAY(double) at; ///< the way from point 0 to each point, and round to point 0 again
+    double round;        ///< the last of these
     double start;        ///< where on it the outlines are matched
 } track;
 
 static void free_track(track *t) {
     vn_rings_free(&t->rings);
     vn_array_free(&t->at);
-}
-
-static double way_round(const track *t) {
-    return t->at.data[t->at.count - 1];
 }
 
 static vn_status measure_track(track *t) {
@@ -68,6 +65,7 @@ static vn_status measure_track(track *t) {
         way += hypot(x[j] - x[i], y[j] - y[i]);
         VN_TRY(vn_array_push(&t->at, way));
     }
+    t->round = way;
     return VN_OK;
 }
 
@@ -104,7 +102,7 @@ static vn_status make_track(track *t, const vn_domain *domain, int32_t number, c
 
 // The point at a part of the way round from the start, 0 to 1.
 static void point_at(const track *t, double part, double *x, double *y) {
-    double round = way_round(t), way = fmod(t->start + part * round, round);
+    double way = fmod(t->start + part * t->round, t->round);
     int32_t low = 0, high = t->at.count - 1;
     while (high - low > 1) {
         int32_t middle = low + (high - low) / 2;
@@ -133,7 +131,7 @@ static bool is_corner(const vn_rings *rings, int32_t i) {
 
 static vn_status push_corners(parts *p, const track *t) {
     for (int32_t i = 0; i < t->rings.x.count; i++) {
-        double part = (t->at.data[i] - t->start) / way_round(t);
+        double part = (t->at.data[i] - t->start) / t->round;
         if (is_corner(&t->rings, i)) {
             VN_TRY(vn_array_push(p, part < 0 ? part + 1 : part));
         }
@@ -154,7 +152,9 @@ static vn_status choose_parts(parts *p, const track *tracks, int32_t keys, int32
     for (int32_t k = 0; k < keys; k++) {
         VN_TRY(push_corners(p, &tracks[k]));
     }
-    qsort(p->data, (size_t)p->count, sizeof *p->data, by_value);
+    if (p->count > 0) {
+        qsort(p->data, (size_t)p->count, sizeof *p->data, by_value);
+    }
     int32_t kept = 1;
     for (int32_t i = 1; i < p->count; i++) {
         if (p->data[i] - p->data[kept - 1] > 1e-9 && p->data[i] < 1 - 1e-9) {
@@ -167,10 +167,13 @@ static vn_status choose_parts(parts *p, const track *tracks, int32_t keys, int32
 
 static vn_status place_corners(morph *m, const track *tracks, const parts *p) {
     m->corners = p->count;
-    VN_TRY(vn_array_zero(&m->x, (int64_t)m->keys * m->corners));
-    VN_TRY(vn_array_zero(&m->y, (int64_t)m->keys * m->corners));
-    for (int32_t i = 0; i < m->x.count; i++) {
-        point_at(&tracks[i / m->corners], p->data[i % m->corners], &m->x.data[i], &m->y.data[i]);
+    for (int32_t k = 0; k < m->keys; k++) {
+        for (int32_t c = 0; c < p->count; c++) {
+            double x, y;
+            point_at(&tracks[k], p->data[c], &x, &y);
+            VN_TRY(vn_array_push(&m->x, x));
+            VN_TRY(vn_array_push(&m->y, y));
+        }
     }
     return vn_array_zero(&m->around, 4 * (int64_t)m->corners);
 }
@@ -319,8 +322,8 @@ static vn_status check_def(const vn_morph_def *def) {
     return VN_OK;
 }
 
-static vn_status begin(morph *m, const vn_morph_def *def) {
-    m->keys = def->count;
+static vn_status begin(morph *m, const vn_morph_def *def, int32_t keys) {
+    m->keys = keys;
     m->step = -1;
     m->growth.steps = def->steps;
     VN_TRY(take_keys(m, def));
@@ -333,9 +336,10 @@ vn_status vn_growth_morph(vn_growth **out, const vn_morph_def *def) {
     *out = NULL;
     VN_TRY(check_def(def));
     vn_growth_base base = {def->domains[0], def->has_origin ? def->origin : NULL, def->split};
+    int32_t keys = def->count;
     vn_growth *growth;
     VN_TRY(vn_growth_make(&growth, &morph_kind, &base));
-    vn_status status = begin((morph *)growth, def);
+    vn_status status = begin((morph *)growth, def, keys);
     if (status != VN_OK) {
         vn_growth_release(growth);
         return status;

@@ -60,6 +60,24 @@ static const char reading[] = "local venule, folder, begin = require 'venule', .
                               "assert(#both.a == 2 and #both.b == 1)\n"
                               "assert(venule.domain.svg(folder .. '/page.svg'):measure() > 10)\n";
 
+static const char blades[] =
+    "local venule, _, begin = require 'venule', ...\n"
+    "begin()\n"
+    "local growth, shape = venule.growth, venule.domain.polygon {{0, 0}, {6, 4}, {0, 14}, {-6, 4}}\n"
+    "local veins, auxin = venule.network {murray = {}}, venule.attractors {}\n"
+    "local function f(y0) return 1.1 + y0 / 100 end\n"
+    "veins:add(veins:root(0, 0), 1, 6)\n"
+    "auxin:add(0, 7)\n"
+    "local box = venule.domain.box {min = {-4, 0}, max = {4, 9}}\n"
+    "for _, blade in ipairs {\n"
+    "  growth.isogonic {domain = shape, split = 1}, growth.uniform {domain = shape, x = 1.1, steps = 2},\n"
+    "  growth.rerg {domain = shape, x = f, y = {{0, 1}, {5, 1.2}, {9, 1.1}}, samples = 50, steps = 2},\n"
+    "  growth.morph {domains = {shape, box}, samples = 20, steps = 2},\n"
+    "} do\n"
+    "  while blade:advance(veins, auxin) and blade.time < 3 do blade:map(0, 1, 0, 2) end\n"
+    "end\n"
+    "assert(#veins > 5 and #auxin == 1)\n";
+
 static int64_t refuse_from; // the n-th allocation after begin(), or after the state was asked for
 static bool from_the_start;
 static bool begun;
@@ -159,6 +177,11 @@ static void test_reading(void **state) {
     sweep(reading, false);
 }
 
+static void test_blades(void **state) {
+    (void)state;
+    sweep(blades, false);
+}
+
 static int make_folder(void **state) {
     (void)state;
     return mkdtemp(folder) == NULL;
@@ -181,6 +204,7 @@ int main(void) {
         cmocka_unit_test(test_scenario),
         cmocka_unit_test(test_scenario_from_the_first_allocation),
         cmocka_unit_test(test_reading),
+        cmocka_unit_test(test_blades),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
