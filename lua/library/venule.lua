@@ -21,6 +21,41 @@ local venule = {domain = {}, growth = {}, leaf = {}}
 ---@field min_radius number
 ---@field max_radius number
 ---@field extent venule.Bounds
+---@field leaf? venule.LeafMeasures
+
+---@class venule.Statistics
+---@field count integer
+---@field mean number
+---@field deviation number
+---@field min number
+---@field lower number
+---@field median number
+---@field upper number
+---@field max number
+
+---@class venule.LeafMeasures
+---@field area number
+---@field area_of "domain"|"hull"
+---@field length number
+---@field density number # length by area
+---@field order_density number[] # of each vein order
+---@field tips integer # free ends but for roots
+---@field tip_density number
+---@field free_ends integer # tips within areoles
+---@field free_end_density number
+---@field degree3 integer # junctions of three edges
+---@field degree4 integer
+---@field degree_more integer
+---@field loops integer # edges - nodes + connected parts
+---@field crossings integer # where there are any, areoles say little
+---@field areoles integer
+---@field areole_areas number[]
+---@field areole_quotients number[] # 4 π area / perimeter²
+---@field areole_area venule.Statistics
+---@field areole_quotient venule.Statistics
+---@field hierarchy {merges: integer, height: integer, strahler: integer, asymmetry: number, nesting: number}
+---@field angles {count: integer, daughters: number, bins: {from: number, to: number, count: integer, thick_middle: number, thick_thin: number, middle_thin: number}[]}
+---@field distance {resolution: number, points: integer, mean: number, max: number, mode: number}
 
 ---@class (exact) venule.network.Options
 ---@field dim? integer # dimensions: 2 or 3 (default 2)
@@ -130,7 +165,7 @@ function venule.result(options) end
 ---@field attraction_distance? number # sources farther than this draw no vein; left out: any distance
 ---@field darts number # ρ: darts thrown per area and step; under marginal growth, per area once
 ---@field neighborhood? "nearest"|"relative"|"urquhart" # which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these
----@field vein_steps? integer # vein steps to one growth step
+---@field vein_steps? integer # vein steps to one growth step; left out: as many as keep pace with the tip
 ---@field stop? "reached"|"grown" # end when every source is reached, or as soon as the blade is grown
 ---@field murray? table # {exponent=, tip_radius=}: radii by Murray's law
 ---@field unit? string # length unit that files carry
@@ -387,6 +422,58 @@ function venule.growth.none(options) end
 ---@return venule.Growth
 function venule.growth.marginal(options) end
 
+---@class (exact) venule.isogonic.Options
+---@field domain venule.Domain|venule.Growth # the shape of the blade, at any size
+---@field origin? number[] # the petiole, about which the shape is scaled to `from`; left out: the lowest point of the outline, length
+---@field from? number # the blade's length at first, and that of its shape in the simulation; left out: a twentieth of `to`, length
+---@field to? number # its length when grown; left out: the domain's own length, its extent along y, length
+---@field step? number # the length that each step adds; left out: a hundredth of to - from, length
+---@field split? number # edges longer than this times the unit are split; 0: none, older edges stretch, length (default 0)
+
+---A blade that grows alike everywhere, computed by shrinking the unit (READINGS R7): its shape has the length `from` and stays, `length` runs from `from` to `to`, and `unit` is from / length. Multiply lengths by `unit` and divide densities by its square.
+---@param options venule.isogonic.Options
+---@return venule.Growth
+function venule.growth.isogonic(options) end
+
+---@class (exact) venule.uniform.Options
+---@field domain venule.Domain|venule.Growth # the shape of the blade at first
+---@field origin? number[] # the petiole, which stays; left out: the lowest point of the outline, length
+---@field x? number # growth factor a step across; 1: none (default 1)
+---@field y? number # growth factor a step along; 1: none (default 1)
+---@field steps? integer # how many steps it grows, steps (default 100)
+---@field split? number # edges that growth makes longer than this are split; about two vein segments; 0: none, length (default 2)
+
+---A blade that grows by one factor a step across and one along; its tissue moves.
+---@param options venule.uniform.Options
+---@return venule.Growth
+function venule.growth.uniform(options) end
+
+---@class (exact) venule.rerg.Options
+---@field domain venule.Domain|venule.Growth # the shape of the blade at first
+---@field origin? number[] # the petiole, which stays and from which heights count; left out: the lowest point of the outline, length
+---@field x? any # growth factor a step across, by the height y0 at first; through points {y0, f} runs a monotone spline; 1: none
+---@field y? any # growth factor a step along, likewise
+---@field steps? integer # how many steps it grows, steps (default 100)
+---@field samples? integer # how many samples of a function or spline are taken, evenly spaced; f is linear in between, samples (default 16384)
+---@field split? number # edges that growth makes longer than this are split; about two vein segments; 0: none, length (default 2)
+
+---A blade that grows by factors that vary along it (Runions, appendix): x(t) = x0 f_x(y0)^t and y(t) = ∫ f_y^t dy from 0 to y0, where y0 is the height above the origin at first. Its tissue moves.
+---@param options venule.rerg.Options
+---@return venule.Growth
+function venule.growth.rerg(options) end
+
+---@class (exact) venule.morph.Options
+---@field domains any # the outlines from first to last, each of one ring
+---@field origin? number[] # outlines are matched from their points nearest to it; left out: from their lowest points, length
+---@field steps? integer # how many steps there are from the first outline to the last, steps (default 100)
+---@field samples? integer # evenly spaced points that an outline is made of, besides its corners, points (default 512)
+---@field split? number # edges that growth makes longer than this are split; about two vein segments; 0: none, length (default 2)
+
+---A blade that grows from outline to outline (Webb 2020); its tissue moves, by mean value coordinates.
+---@param options venule.morph.Options
+---@return venule.Growth
+function venule.growth.morph(options) end
+
 ---Where something may grow. Domains combine: `blade - hole`, `a + b`, `a * b`.
 ---@class venule.Domain
 ---@operator sub(venule.Domain): venule.Domain
@@ -444,20 +531,23 @@ function Domain:sample(n, options) end
 
 ---A domain that changes with time; accepted wherever a domain is.
 ---@class venule.Growth: venule.Domain
+---@field kind string # none, marginal, isogonic, uniform, rerg or morph
 ---@field time integer # steps taken
+---@field steps integer # steps from first to grown
+---@field grown boolean # whether advance() has nothing left to do
 ---@field length number # today's length
 ---@field final_length number # the length when grown
 ---@field unit number # today's unit length in the simulation's coordinates: 1 at first (READINGS R7)
----@field origin number[] # the petiole {x, y}, which stays where it is
+---@field origin number[] # the petiole {x, y}, which stays where it is; a morph's moves with its outline
 ---@field dim integer # 2 or 3
 local Growth = {}
 
----Grow by one step; the attractors that the margin has passed are released, away from the network. False when it was grown already.
+---Grow by one step. Networks and attractors move with the tissue, edges that are stretched beyond `split` are split, and the attractors that a margin has passed are released, away from the network. False when it was grown already.
 ---@param ... venule.Network|venule.Attractors
 ---@return boolean
 function Growth:advance(...) end
 
----Where the tissue that is at (x, y) at time t1 is at time t2.
+---Where the tissue that is at (x, y) at time t1 is at time t2; times are steps, and may be fractions. Under none, marginal and isogonic growth it keeps its coordinates.
 ---@param x number
 ---@param y number
 ---@param t1 number
@@ -494,7 +584,15 @@ function Network:root(x, y, z) end
 ---@return integer
 function Network:add(parent, x, y, z) end
 
----Close a loop by an edge between two nodes.
+---Put a new node into the edge between a node and its parent; its index.
+---@param node integer
+---@param x number
+---@param y number
+---@param z? number
+---@return integer
+function Network:split(node, x, y, z) end
+
+---Close a loop by an edge from a to b, whose parent a becomes too. `radius` holds while no law does.
 ---@param a integer
 ---@param b integer
 ---@param radius? number
@@ -503,6 +601,7 @@ function Network:join(a, b, radius) end
 ---@class (exact) venule.murray.Options
 ---@field exponent? number # n in r_parent^n = Σ r_child^n: 3 by Murray, 2 in most of Runions' leaves (default 3)
 ---@field tip_radius? number # radius of the edges that end in a tip, length (default 1)
+---@field veinlets? number # what each node of a primary or secondary vein takes up besides its children, for veinlets that are not modeled, tips (default 0)
 
 ---Give the edges radii by Murray's law; from now on they follow it, however the network grows.
 ---@param options venule.murray.Options
@@ -524,17 +623,27 @@ function Network:extend(influence, options) end
 ---@return integer[]
 function Network:children(node) end
 
----The extra edges that close loops.
+---The extra edges that close loops, with their radii; by Murray's law a is the parent.
 ---@return {a: integer, b: integer, radius: number}[]
 function Network:joins() end
 
----Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order.
----@param kind "strahler"|"horton"|"hickey"
-function Network:orders(kind) end
+---@class (exact) venule.orders.Options
+---@field ratio? number # hickey: a lateral this many times as thick as the thickest child has its order too; left out: none has
 
----Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, max_radius, extent.
+---Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order. Joins are nobody's children; a join has the higher order of its ends.
+---@param kind "strahler"|"horton"|"hickey"
+---@param options? venule.orders.Options
+function Network:orders(kind, options) end
+
+---@class (exact) venule.measure.Options
+---@field leaf? any # measure it as botanists measure leaves too (2D): the field `leaf` of what comes back
+---@field domain? venule.Domain|venule.Growth # the blade, whose area counts; left out: the convex hull of the nodes
+---@field resolution? number # spacing of the points of the map of distances to veins; left out: 40,000 in the area, length
+
+---Counts, length and extent: nodes, roots, tips, bifurcations, joins, depth, length, min_radius, max_radius, extent. With `leaf = true` also what botanists measure in leaves, as `leaf`: vein density, areoles, free ends, junctions, the hierarchy of loops, angles, distances to veins.
+---@param options? venule.measure.Options
 ---@return venule.Measures
-function Network:measure() end
+function Network:measure(options) end
 
 ---Multiply all coordinates and radii.
 ---@param factor number
@@ -626,6 +735,7 @@ function Canvas:fill(domain, options) end
 ---@field opacity? number # 0 is invisible, 1 hides what is behind; veins that cross do not darken each other (default 1)
 ---@field width? any # width of the edges; "radius", the default, is twice each edge's radius, length
 ---@field min_width? number # no edge is drawn thinner than this, so that the finest veins do not vanish, pixels (default 0.3)
+---@field hide_below? number # edges thinner than this are left out, so that a large network makes a small file; 0: none is, pixels (default 0)
 
 ---Draw a network with round ends, tapered where radii differ. `width` is "radius" (the default), a number, or a function of the node.
 ---@param network venule.Network
