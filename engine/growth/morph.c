@@ -152,9 +152,10 @@ static vn_status choose_parts(parts *p, const track *tracks, int32_t keys, int32
     for (int32_t k = 0; k < keys; k++) {
         VN_TRY(push_corners(p, &tracks[k]));
     }
-    if (p->count > 0) {
-        qsort(p->data, (size_t)p->count, sizeof *p->data, by_value);
+    if (p->count == 0) {
+        return VN_OK; // never: there are samples
     }
+    qsort(p->data, (size_t)p->count, sizeof *p->data, by_value);
     int32_t kept = 1;
     for (int32_t i = 1; i < p->count; i++) {
         if (p->data[i] - p->data[kept - 1] > 1e-9 && p->data[i] < 1 - 1e-9) {

@@ -681,6 +681,28 @@ static void attractors_move_with_the_tissue(void **state) {
     vn_domain_release(shape);
 }
 
+// Veins on a pane of glass over the tissue.
+static void attractors_may_move_alone(void **state) {
+    (void)state;
+    vn_domain *shape = box_of(-3, 0, 3, 5);
+    vn_growth *growth = uniform_blade(shape, 1.4, 1.2, 3);
+    vn_attractors *attractors = attractors_of(2, 1);
+    vn_network *network = random_tree(2, 300, 1, 3);
+    vn_rng rng = vn_rng_make(5);
+    vn_throw_def throw = {.domain = shape, .count = 200, .rng = &rng};
+    int32_t accepted;
+    assert_ok(vn_throw(attractors, &throw, &accepted));
+    do {
+        assert_nearest(attractors, network);
+        assert_ok(vn_attractors_carry(attractors, growth));
+    } while (advance(growth));
+    assert_true(network->moved == 0);
+    vn_attractors_destroy(attractors);
+    vn_network_destroy(network);
+    vn_growth_release(growth);
+    vn_domain_release(shape);
+}
+
 // ---- What makes no sense ----
 
 static vn_status try_rerg(vn_rerg_def def) {
@@ -851,6 +873,7 @@ int main(void) {
         counted_test(isogonic_growth_splits_by_its_unit),
         counted_test(without_room_for_the_parts_nothing_moves),
         counted_test(attractors_move_with_the_tissue),
+        counted_test(attractors_may_move_alone),
         counted_test(factors_that_are_none_are_refused),
         counted_test(lengths_and_times_that_make_no_sense_are_refused),
         counted_test(outlines_that_cannot_morph_are_refused),
