@@ -84,8 +84,7 @@ typedef struct vn_morph_def {
     double origin[3];          ///< outlines are matched from their points nearest to it; used when has_origin
     bool has_origin;           ///< false: each from its lowest point, or the middle of its flat base
     int32_t steps;             ///< from the first outline to the last, at least count - 1; default 100
-    int32_t samples; ///< evenly spaced points an outline is made of, 8 or more, besides its corners; default
-                     ///< 512
+    int32_t samples; ///< evenly spaced points of an outline, 8 or more, besides its corners; default 512
     double split;    ///< vn_growth_carry() splits edges longer than this (0: none); default 2 lengths
 } vn_morph_def;
 VN_API vn_morph_def vn_morph_def_default(void);

@@ -284,15 +284,13 @@ static int growth_map(lua_State *L) {
 
 static const vnl_function methods[] = {
     {"advance", growth_advance, "(...: venule.Network|venule.Attractors): boolean", NULL,
-     "Grow by one step. Networks and attractors move with the tissue, edges that are stretched beyond "
-     "`split` "
-     "are split, and the attractors that a margin has passed are released, away from the network. False when "
-     "it was grown already.",
+     "Grow by one step. Networks and attractors move with the tissue, edges stretched beyond `split` are "
+     "split, and the attractors that a margin has passed are released, away from the network. False when it "
+     "was grown already.",
      NULL},
     {"map", growth_map, "(x: number, y: number, t1: number, t2: number): number, number", NULL,
      "Where the tissue that is at (x, y) at time t1 is at time t2; times are steps, and may be fractions. "
-     "Under "
-     "none, marginal and isogonic growth it keeps its coordinates.",
+     "Under none, marginal and isogonic growth it keeps its coordinates.",
      NULL},
     {0},
 };

@@ -1,4 +1,4 @@
--- Open leaf venation, the loop of Runions et al. 2005, section 3: the blade grows, sources appear, veins grow toward the
+-- Leaf venation, the loop of Runions et al. 2005, sections 3 and 4: the blade grows, sources appear, veins grow toward the
 -- sources, sources that were reached go. Every primitive of it is public; copy the loop when an option is not enough.
 local venule = ...
 
@@ -50,7 +50,7 @@ local function keep_pace(blade, segment)
   return math.tointeger(math.ceil(math.min(math.max(n, 1), 1000)))
 end
 
---- Open venation, ready to grow: s:step(), s:run{}, s.network, s.attractors.
+--- Leaf venation, open or closed, ready to grow: s:step(), s:run{}, s.network, s.attractors.
 local function venation(given)
   local o = options.read("venation", rows, given, 2)
   o.vein_distance = o.vein_distance or o.birth_distance
@@ -90,7 +90,11 @@ function Venation:is_done(growing, added, accepted)
   if growing then return false end
   if self.options.stop == "grown" then return true end
   self.idle = (added > 0 or accepted > 0) and 0 or self.idle + 1
-  if self.grows then return #self.attractors == 0 or self.idle > 0 end
+  if self.grows then
+    -- In open venation nothing grows any more once nothing has; in closed one, sources that block one another lose patience.
+    local closed = self.options.neighborhood ~= "nearest"
+    return #self.attractors == 0 or self.idle >= (closed and PATIENCE or 1)
+  end
   local darts_a_step = self.options.darts / self.blade.unit ^ 2 * self.blade:measure()
   return self.idle >= PATIENCE * math.max(1, 1 / darts_a_step)
 end

@@ -207,10 +207,118 @@ static void bench_closed(report *r, double yard, bool quick) {
     }
 }
 
+// An ovate blade with a pointed tip, as wide as a poplar's: about 0.6 of its length squared in area.
+static vn_domain *poplar_blade(void) {
+    enum { SAMPLES = 200 };
+    double half_width[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++) {
+        double t = (double)i / (SAMPLES - 1);
+        half_width[i] = 0.47 * pow(sin(3.14159265358979 * pow(t, 0.55)), 0.8);
+    }
+    vn_profile_def def = vn_profile_def_default();
+    vn_domain *blade;
+    def.half_width = half_width;
+    def.samples = SAMPLES;
+    must(vn_domain_profile(&blade, &def));
+    return blade;
+}
+
+/// The poplar of Table 1, as READINGS R7 reads it.
+typedef struct poplar {
+    vn_growth *growth;
+    vn_network *network;
+    vn_attractors *auxin;
+    vn_influence *influence;
+    vn_rng rng;
+    int mode;
+} poplar;
+
+static int32_t poplar_vein_step(poplar *p) {
+    double unit = vn_growth_unit(p->growth);
+    vn_influence_def find = {.mode = p->mode};
+    vn_extend_def extend = {.length = unit, .domain = vn_growth_domain(p->growth), .meet = VN_MEET_JOIN};
+    vn_consume_def consume = {.distance = unit, .mode = VN_CONSUME_TAGGED};
+    int32_t added, first, consumed;
+    must(vn_influence_find(&p->influence, p->auxin, p->network, &find));
+    must(vn_extend(p->network, p->influence, &extend, &added, &first));
+    must(vn_consume(p->auxin, p->network, &consume, &consumed));
+    return added;
+}
+
+static bool poplar_step(poplar *p) {
+    bool growing;
+    int32_t added = 0, accepted;
+    must(vn_growth_advance(p->growth, &growing));
+    if (growing) {
+        double unit = vn_growth_unit(p->growth);
+        vn_throw_def throw = {.domain = vn_growth_domain(p->growth),
+                              .density = 200e-6 / (unit * unit),
+                              .spacing = 2 * unit,
+                              .clearance = 2 * unit,
+                              .network = p->network,
+                              .rng = &p->rng};
+        must(vn_throw(p->auxin, &throw, &accepted));
+    }
+    for (int i = 0; i < 3; i++) {
+        added += poplar_vein_step(p);
+    }
+    return growing || added > 0;
+}
+
+static outcome grow_poplar(int mode) {
+    outcome result = {0};
+    poplar p = {.rng = vn_rng_make(2005), .mode = mode};
+    vn_growth_def def = vn_growth_def_default();
+    vn_network_def net = vn_network_def_default();
+    vn_attractors_def set = vn_attractors_def_default();
+    double petiole[3] = {0, 0, 0};
+    size_t base = vn_byte_count();
+    vn_byte_peak_reset();
+    def.domain = poplar_blade();
+    def.from = 115;
+    def.to = 3500;
+    def.step = 9;
+    must(vn_growth_isogonic(&p.growth, &def));
+    must(vn_network_create(&p.network, &net));
+    must(vn_network_root(p.network, petiole, NULL));
+    must(vn_attractors_create(&p.auxin, &set));
+    double begin = now();
+    while (poplar_step(&p)) {
+    }
+    result.seconds = now() - begin;
+    result.nodes = vn_network_count(p.network);
+    result.left = vn_attractors_count(p.auxin);
+    result.peak_bytes_a_node = (double)(vn_byte_peak() - base) / result.nodes;
+    vn_influence_destroy(p.influence);
+    vn_attractors_destroy(p.auxin);
+    vn_growth_release(p.growth);
+    vn_domain_release(def.domain);
+    result.bytes_a_node = (double)(vn_byte_count() - base) / result.nodes;
+    vn_network_destroy(p.network);
+    return result;
+}
+
+static void bench_poplar(report *r, double yard, bool quick) {
+    outcome best[2];
+    for (int i = 0; i < (quick ? 1 : 2); i++) {
+        for (int mode = 1; mode <= 2; mode++) {
+            outcome one = grow_poplar(mode);
+            bool better = i == 0 || one.seconds < best[mode - 1].seconds;
+            best[mode - 1] = better ? one : best[mode - 1];
+        }
+    }
+    report_outcome(r, "poplar-relative", &best[0], yard);
+    report_outcome(r, "poplar-urquhart", &best[1], yard);
+    goal("poplar, relative neighbors, yardsticks", best[0].seconds / yard, 5);
+    goal("poplar, relative against Urquhart", best[0].seconds / best[1].seconds, 1.2);
+    report_add(r, "poplar", "relative/urquhart", best[0].seconds / best[1].seconds, "");
+}
+
 static const struct {
     const char *name;
     void (*run)(report *r, double yard, bool quick);
-} benches[] = {{"open", bench_open}, {"webb", bench_webb}, {"closed", bench_closed}};
+} benches[] = {
+    {"open", bench_open}, {"webb", bench_webb}, {"closed", bench_closed}, {"poplar", bench_poplar}};
 
 enum { BENCHES = sizeof benches / sizeof *benches };
 
@@ -244,7 +352,8 @@ static bool read_options(bench_options *o, int argc, char **argv) {
             o->names[o->count++] = argv[i];
         } else {
             fprintf(stderr,
-                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [--quick] [--json FILE] "
+                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [poplar] [--quick] [--json "
+                    "FILE] "
                     "[--csv FILE] "
                     "[--compare FILE.json])\n",
                     argv[i]);

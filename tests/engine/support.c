@@ -166,3 +166,56 @@ vn_domain *maple_shape(void) {
     }
     return polygon_of(xy, POINTS);
 }
+
+vn_domain *leaf_shape(void) {
+    static const double half[] = {0, 2, 3, 3.2, 2.8, 1.8, 0.7, 0};
+    vn_profile_def def = {.length = 12, .half_width = half, .samples = 8};
+    vn_domain *domain = NULL;
+    assert_ok(vn_domain_profile(&domain, &def));
+    return domain;
+}
+
+vn_domain *cordate_shape(void) {
+    static const double xy[] = {0, 0, 2, -2, 5, -2.5, 7, 1, 5, 6, 0, 11, -5, 6, -7, 1, -5, -2.5, -2, -2};
+    return polygon_of(xy, 10);
+}
+
+vn_growth *uniform_blade(vn_domain *domain, double x, double y, int32_t steps) {
+    vn_uniform_def def = vn_uniform_def_default();
+    vn_growth *growth = NULL;
+    def.domain = domain;
+    def.x = x;
+    def.y = y;
+    def.steps = steps;
+    def.has_origin = true;
+    assert_ok(vn_growth_uniform(&growth, &def));
+    return growth;
+}
+
+vn_growth *rerg_blade(vn_domain *domain, factor_fn *fx, factor_fn *fy, int32_t steps) {
+    vn_rerg_def def = vn_rerg_def_default();
+    vn_growth *growth = NULL;
+    double bottom, top, *x = malloc(SAMPLES * sizeof *x), *y = malloc(SAMPLES * sizeof *y);
+    assert_true(x != NULL && y != NULL && def.samples == SAMPLES);
+    def.domain = domain;
+    def.has_origin = true;
+    def.steps = steps;
+    def.x = x;
+    def.y = y;
+    def.x_samples = def.y_samples = SAMPLES;
+    assert_ok(vn_growth_heights(&def, &bottom, &top));
+    for (int32_t i = 0; i < SAMPLES; i++) {
+        double y0 = bottom + (top - bottom) * i / (SAMPLES - 1);
+        x[i] = fx(y0);
+        y[i] = fy(y0);
+    }
+    assert_ok(vn_growth_rerg(&growth, &def));
+    free(x);
+    free(y);
+    return growth;
+}
+
+void map_point(vn_growth *growth, double x, double y, double t1, double t2, double q[3]) {
+    double p[3] = {x, y, 0};
+    assert_ok(vn_growth_map(growth, p, t1, t2, q));
+}

@@ -53,6 +53,19 @@ vn_domain *comb_shape(void);
 /// A leaf of deep lobes about (0, 0), of radius 10 at most.
 vn_domain *maple_shape(void);
 
+/// A pointed blade 12 long, of seven parts.
+vn_domain *leaf_shape(void);
+/// A blade whose petiole is at (0, 0), and whose lobes hang below.
+vn_domain *cordate_shape(void);
+
+vn_growth *uniform_blade(vn_domain *domain, double x, double y, int32_t steps);
+/// A function of the height at first, by which a blade grows.
+typedef double factor_fn(double y0);
+enum { SAMPLES = 16384 };
+/// A blade of the default number of samples about (0, 0).
+vn_growth *rerg_blade(vn_domain *domain, factor_fn *fx, factor_fn *fy, int32_t steps);
+void map_point(vn_growth *growth, double x, double y, double t1, double t2, double q[3]);
+
 static inline double uniform(vn_rng *rng, double low, double high) {
     return vn_rng_uniform(rng, low, high);
 }
