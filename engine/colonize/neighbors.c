@@ -286,7 +286,7 @@ static vn_status find_hole(vn_attractors *a, vn_network *network, const double s
         for (; at > 0 && a->near_nodes.data[at - 1].distance2 > d2; at--) {
             a->near_nodes.data[at] = a->near_nodes.data[at - 1];
         }
-        a->near_nodes.data[at] = (vn_found){node, d2};
+        a->near_nodes.data[at] = (vn_found){.point = node, .distance2 = d2};
     }
     return VN_OK;
 }

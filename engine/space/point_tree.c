@@ -237,21 +237,20 @@ static const double SURE = 1 - 1e-12;
 // Whether everything in the box is nearer to the found point than to p, and farther from p than that point
 // is: none of it can be a relative neighbor of p.
 static bool hides_box(const around_query *q, const vn_found *by, const place *at, double nearest2) {
-    double w[3], least = 0;
+    double least = 0;
     if (!(by->distance2 < SURE * nearest2)) {
         return false;
     }
-    vn_points_get(q->points, by->point, w);
     for (int k = 0; k < q->tree->dim; k++) {
-        double toward = w[k] - q->p[k];
         double low = at->low[k] - q->p[k];
-        least += toward * (toward > 0 ? low : low + at->size);
+        least += by->to[k] * (by->to[k] > 0 ? low : low + at->size);
     }
     return SURE * least > 0.5 * by->distance2;
 }
 
-static bool hides_point(const around_query *q, const vn_found *by, const double u[3], double d2) {
-    return by->distance2 < SURE * d2 && vn_points_distance2(q->points, by->point, u) < SURE * d2;
+static bool hides_point(const vn_found *by, const vn_found *other) {
+    return by->distance2 < SURE * other->distance2 &&
+           vn_distance2(by->to, other->to) < SURE * other->distance2;
 }
 
 static bool is_box_hidden(const around_query *q, const place *at, double nearest2) {
@@ -264,27 +263,33 @@ static bool is_box_hidden(const around_query *q, const place *at, double nearest
     return false;
 }
 
+static bool comes_before(const vn_found *a, const vn_found *b) {
+    return a->distance2 < b->distance2 || (a->distance2 == b->distance2 && a->point < b->point);
+}
+
 static vn_status find_point(const around_query *q, int32_t point) {
-    double u[3];
     vn_found_array *found = q->found;
+    vn_found one = {.point = point};
+    double u[3];
     vn_points_get(q->points, point, u);
-    double d2 = vn_distance2(u, q->p);
+    for (int k = 0; k < 3; k++) {
+        one.to[k] = k < q->tree->dim ? u[k] - q->p[k] : 0;
+        one.distance2 += one.to[k] * one.to[k];
+    }
+    if (one.distance2 > q->reach2) {
+        return VN_OK;
+    }
     for (int32_t k = 0; k < found->count; k++) {
-        if (hides_point(q, &found->data[k], u, d2)) {
+        if (hides_point(&found->data[k], &one)) {
             return VN_OK;
         }
     }
-    if (d2 > q->reach2) {
-        return VN_OK;
-    }
-    VN_TRY(vn_array_push(found, ((vn_found){point, d2})));
+    VN_TRY(vn_array_push(found, one));
     int32_t at = found->count - 1;
-    for (; at > 0 && (found->data[at - 1].distance2 > d2 ||
-                      (found->data[at - 1].distance2 == d2 && found->data[at - 1].point > point));
-         at--) {
+    for (; at > 0 && comes_before(&one, &found->data[at - 1]); at--) {
         found->data[at] = found->data[at - 1];
     }
-    found->data[at] = (vn_found){point, d2};
+    found->data[at] = one;
     return VN_OK;
 }
 
@@ -307,8 +312,11 @@ static vn_status find_below(const around_query *q, int32_t cell, const place *at
     int first = octant(dim, &nearest, q->p);
     for (int c = 0; c < 1 << dim; c++) {
         int child = c ^ first; // those that share a side with the first come before the one across
-        place below = child_place(at, dim, child);
-        VN_TRY(find_below(q, here->children + child, &below));
+        const vn_tree_cell *next = &q->tree->cells.data[here->children + child];
+        if (next->children >= 0 || next->count > 0) {
+            place below = child_place(at, dim, child);
+            VN_TRY(find_below(q, here->children + child, &below));
+        }
     }
     return VN_OK;
 }

@@ -39,6 +39,7 @@ bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *point
 typedef struct vn_found {
     int32_t point;
     double distance2;
+    double to[3]; ///< the way there from where was asked
 } vn_found;
 typedef VN_ARRAY(vn_found) vn_found_array;
 
