@@ -6,8 +6,8 @@ void vn_set_threads(int threads) {
     omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
 }
 
-// Threads that wait for work keep their cores busy for a while, which on a shared machine costs the others more
-// than a small loop gains: eighty per cent of a leaf of 27,000 nodes went there.
+// Threads that wait for work keep their cores busy for a while, which on a shared machine costs the others
+// more than a small loop gains: eighty per cent of a leaf of 27,000 nodes went there.
 enum { FEWEST_RANGES = 16 };
 
 void vn_parallel_for(int64_t count, int64_t grain, vn_range_fn *work, void *payload) {

@@ -95,6 +95,8 @@ struct vn_attractors {
     bool tagging;        ///< touched ones wait for tagged veins, rather than for all
 
     vn_extend_def last; ///< how the veins grow; its domain is held
+    vn_box room;        ///< where new nodes can be, while `has_room`
+    bool has_room;
 
     // What the remembered nodes were taken from.
     uint64_t network_serial, network_moved;
@@ -168,6 +170,8 @@ vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
 /// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
 bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
                       double d2);
+/// Whether the nodes from @p begin on are where new ones were expected to be.
+bool vn_ties_have_room(const vn_attractors *a, const vn_network *network, int32_t begin);
 /// Look at the new nodes in `news`.
 vn_status vn_ties_show(vn_attractors *a, const vn_network *network);
 /// Find anew what new nodes have outdated.

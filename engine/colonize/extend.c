@@ -348,7 +348,27 @@ static void count_idle_steps(const extension *e) {
     }
 }
 
+static bool same_box(const vn_box *a, const vn_box *b) {
+    return memcmp(a->min, b->min, sizeof a->min) == 0 && memcmp(a->max, b->max, sizeof a->max) == 0;
+}
+
+// Veins stay inside a domain that stays, and inside what a margin grows to.
+static void remember_room(vn_attractors *a, const vn_domain *domain) {
+    vn_box room = {{0}, {0}};
+    bool stays = domain != NULL;
+    if (domain != NULL && domain->kind->margin != NULL) {
+        double measure;
+        domain->kind->margin->grown(domain, &room, &measure);
+    } else if (domain != NULL) {
+        room = vn_domain_bounds(domain);
+        stays = a->last.domain == domain && same_box(&room, &a->room);
+    }
+    a->room = room;
+    a->has_room = stays;
+}
+
 static void remember_extension(vn_attractors *a, const vn_extend_def *def) {
+    remember_room(a, def->domain);
     vn_domain *held = def->domain != NULL ? vn_domain_retain(def->domain) : NULL;
     vn_domain_release(a->last.domain);
     a->last = *def;

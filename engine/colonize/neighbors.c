@@ -308,6 +308,8 @@ static bool is_excluded_among(const vn_attractors *a, const vn_network *network,
     return false;
 }
 
+static const double TURN = 6.283185307179586;
+
 /// A direction in which something was found.
 typedef struct bearing {
     double angle, x, y, distance;
@@ -318,18 +320,55 @@ static int by_angle(const void *left, const void *right) {
     return (a->angle > b->angle) - (a->angle < b->angle);
 }
 
+static bool is_in_room(const vn_attractors *a, double x, double y) {
+    return x >= a->room.min[0] && x <= a->room.max[0] && y >= a->room.min[1] && y <= a->room.max[1];
+}
+
+// The distance from s at which a ray leaves the room.
+static double way_out(const vn_attractors *a, const double s[3], double angle) {
+    double direction[2] = {cos(angle), sin(angle)}, least = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        double wall = direction[k] > 0 ? a->room.max[k] : a->room.min[k];
+        double way = (wall - s[k]) / direction[k];
+        least = way < least ? fmax(way, 0) : least;
+    }
+    return least;
+}
+
+// How far new nodes can be in the directions from one angle to another: to the walls of the room, farthest in
+// a corner.
+static double room_between(const vn_attractors *a, const double s[3], double from, double to) {
+    if (to < from) {
+        return 0;
+    }
+    if (!a->has_room || !is_in_room(a, s[0], s[1])) {
+        return INFINITY;
+    }
+    double reach = fmax(way_out(a, s, from), way_out(a, s, to));
+    for (int corner = 0; corner < 4; corner++) {
+        double x = (corner & 1 ? a->room.max[0] : a->room.min[0]) - s[0];
+        double y = (corner & 2 ? a->room.max[1] : a->room.min[1]) - s[1];
+        double angle = atan2(y, x);
+        angle += angle < from ? TURN : 0;
+        reach = angle <= to ? fmax(reach, hypot(x, y)) : reach;
+    }
+    return reach;
+}
+
 // How far from s a relative neighbor may be in the directions between two found points: a point hides what
 // is farther than itself up to 60° from its own direction, and beyond the bisector up to 90°.
-static double reach_between(const bearing *a, const bearing *b) {
-    double gap = b->angle - a->angle + (b->angle < a->angle ? 6.283185307179586 : 0);
-    double farther = fmax(a->distance, b->distance);
-    if (gap <= 2.09) {
+static double reach_between(const vn_attractors *a, const double s[3], const bearing *p, const bearing *q) {
+    double gap = q->angle - p->angle + (q->angle <= p->angle ? TURN : 0);
+    double farther = fmax(p->distance, q->distance);
+    if (gap <= 2.09) { // a little less than 120°
         return farther;
     }
-    double area = fabs(a->x * b->y - a->y * b->x);
-    double sides = a->distance * b->distance * hypot(a->x - b->x, a->y - b->y);
-    return gap < 3.14 && area > 1e-9 * a->distance * b->distance ? fmax(farther, sides / (2 * area))
-                                                                 : INFINITY;
+    double area = fabs(p->x * q->y - p->y * q->x);
+    double sides = p->distance * q->distance * hypot(p->x - q->x, p->y - q->y);
+    if (gap < 3.14 && area > 1e-9 * p->distance * q->distance) {
+        return fmax(farther, sides / (2 * area));
+    }
+    return fmax(farther, room_between(a, s, p->angle + 1.04, p->angle + gap - 1.04));
 }
 
 // How far from s a new node may be and still become a neighbor, or drive one out.
@@ -338,7 +377,7 @@ static double interest_of(const vn_attractors *a, const vn_network *network, con
     bearing bearings[MOST];
     double q[3], reach = 0;
     int32_t count = a->near_nodes.count;
-    if (a->dim == 3 || count < 3 || count > MOST || a->near_nodes.data[0].distance2 == 0) {
+    if (a->dim == 3 || count < 1 || count > MOST || a->near_nodes.data[0].distance2 == 0) {
         return INFINITY;
     }
     for (int32_t k = 0; k < count; k++) {
@@ -348,7 +387,7 @@ static double interest_of(const vn_attractors *a, const vn_network *network, con
     }
     qsort(bearings, (size_t)count, sizeof *bearings, by_angle);
     for (int32_t k = 0; k < count; k++) {
-        reach = fmax(reach, reach_between(&bearings[k], &bearings[(k + 1) % count]));
+        reach = fmax(reach, reach_between(a, s, &bearings[k], &bearings[(k + 1) % count]));
     }
     return reach;
 }
@@ -367,6 +406,15 @@ static vn_status find_around(vn_attractors *a, vn_network *network, int32_t i, c
     }
     a->near2.data[i] = fmin(reach * reach * (1 + 1e-6), a->reach2);
     return VN_OK;
+}
+
+bool vn_ties_have_room(const vn_attractors *a, const vn_network *network, int32_t begin) {
+    for (int32_t node = begin; node < network->x.count && a->has_room && a->dim == 2; node++) {
+        if (!is_in_room(a, network->x.data[node], network->y.data[node])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {

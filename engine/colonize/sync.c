@@ -223,6 +223,10 @@ vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, int mode, do
     }
     if (mode != VN_NEAREST) {
         VN_TRY(vn_ties_prepare(a));
+        if (!vn_ties_have_room(a, network, a->nodes_seen)) {
+            a->has_room = false; // somebody put nodes where no vein would grow
+            forget(a, network, mode, reach2);
+        }
     }
     int32_t known = a->attractors_seen;
     for (int32_t i = known; i < a->x.count; i++) {

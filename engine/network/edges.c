@@ -85,20 +85,10 @@ static bool runs_along(const vn_segment *s, const vn_segment *t, bool from_first
     return forward > 0 && vn_turn(s->x0, s->y0, s->x1, s->y1, ox, oy) == 0;
 }
 
-static bool are_apart(const vn_segment *s, const vn_segment *t) {
-    return (t->x0 < s->x0 && t->x0 < s->x1 && t->x1 < s->x0 && t->x1 < s->x1) ||
-           (t->x0 > s->x0 && t->x0 > s->x1 && t->x1 > s->x0 && t->x1 > s->x1) ||
-           (t->y0 < s->y0 && t->y0 < s->y1 && t->y1 < s->y0 && t->y1 < s->y1) ||
-           (t->y0 > s->y0 && t->y0 > s->y1 && t->y1 > s->y0 && t->y1 > s->y1);
-}
-
 static bool test_edge(int32_t edge, void *payload) {
     way *w = payload;
     int32_t a, b;
     vn_segment segment = vn_network_segment(w->network, edge);
-    if (are_apart(&w->segment, &segment)) {
-        return true;
-    }
     vn_network_edge_ends(w->network, edge, &a, &b);
     if (a == w->node || b == w->node) {
         if (runs_along(&w->segment, &segment, a == w->node)) {

@@ -60,10 +60,34 @@ static vn_row row_of(const vn_edge_grid *grid, const vn_segment *s, int64_t j) {
     return (vn_row){j, cell_of(grid, low), cell_of(grid, high)};
 }
 
-static vn_status list_edge(vn_edge_grid *grid, int32_t edge, const vn_row *row) {
+// Not above, and not below: floats keep seven digits, of which the last is given away.
+static float below(double a, double b) {
+    double low = a < b ? a : b;
+    return (float)(low - 1e-6 * fabs(low));
+}
+
+static float above(double a, double b) {
+    double high = a > b ? a : b;
+    return (float)(high + 1e-6 * fabs(high));
+}
+
+static vn_edge_entry entry_of(int32_t edge, const vn_segment *s) {
+    return (vn_edge_entry){.edge = edge,
+                           .low_x = below(s->x0, s->x1),
+                           .low_y = below(s->y0, s->y1),
+                           .high_x = above(s->x0, s->x1),
+                           .high_y = above(s->y0, s->y1)};
+}
+
+static bool overlap(const vn_edge_entry *a, const vn_edge_entry *b) {
+    return a->low_x <= b->high_x && b->low_x <= a->high_x && a->low_y <= b->high_y && b->low_y <= a->high_y;
+}
+
+static vn_status list_edge(vn_edge_grid *grid, vn_edge_entry entry, const vn_row *row) {
     for (int64_t i = row->from; i <= row->to; i++) {
         int32_t bucket = bucket_of(grid, i, row->j);
-        VN_TRY(vn_array_push(&grid->entries, ((vn_edge_entry){edge, grid->heads.data[bucket]})));
+        entry.next = grid->heads.data[bucket];
+        VN_TRY(vn_array_push(&grid->entries, entry));
         grid->heads.data[bucket] = grid->entries.count - 1;
     }
     return VN_OK;
@@ -78,7 +102,7 @@ vn_status vn_edge_grid_insert(vn_edge_grid *grid, int32_t edge, const vn_segment
     int64_t last = cell_of(grid, fmax(s->y0, s->y1));
     for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
-        VN_TRY(list_edge(grid, edge, &row));
+        VN_TRY(list_edge(grid, entry_of(edge, s), &row));
     }
     return VN_OK;
 }
@@ -88,15 +112,18 @@ bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *s, vn_segmen
     if (grid->heads.count == 0) {
         return true;
     }
+    vn_edge_entry own = entry_of(0, s);
     int64_t last = cell_of(grid, fmax(s->y0, s->y1));
     for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
         for (int64_t i = row.from; i <= row.to; i++) {
-            int32_t entry = grid->heads.data[bucket_of(grid, i, j)];
-            for (; entry >= 0; entry = grid->entries.data[entry].next) {
-                if (!visit(grid->entries.data[entry].edge, payload)) {
+            int32_t next = grid->heads.data[bucket_of(grid, i, j)];
+            while (next >= 0) {
+                const vn_edge_entry *entry = &grid->entries.data[next];
+                if (overlap(entry, &own) && !visit(entry->edge, payload)) {
                     return false;
                 }
+                next = entry->next;
             }
         }
     }

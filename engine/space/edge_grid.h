@@ -5,9 +5,11 @@
 #include "base/array.h"
 #include "space/segment_grid.h"
 
-/// An edge in one of the cells that its box overlaps.
+/// An edge in one of the cells that it passes, and the box it was in when it was listed, a little too large:
+/// most questions are answered by that, without a look at the edge.
 typedef struct vn_edge_entry {
     int32_t edge, next;
+    float low_x, low_y, high_x, high_y;
 } vn_edge_entry;
 
 /// Edges hashed into square cells. Where an edge is now is asked of the caller: one that has become shorter
@@ -26,8 +28,9 @@ void vn_edge_grid_free(vn_edge_grid *grid);
 /// List @p edge, which is where @p segment says.
 vn_status vn_edge_grid_insert(vn_edge_grid *grid, int32_t edge, const vn_segment *segment);
 
-/// Visit every edge listed in a cell that the box of @p segment overlaps; some may be visited several times,
-/// and some that are elsewhere. False when stopped by @p visit, which returns false to stop.
+/// Visit every edge listed in a cell that @p segment passes and whose box overlaps its own; some may be
+/// visited several times, and some that are elsewhere. False when stopped by @p visit, which returns false to
+/// stop.
 bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *segment, vn_segment_visit_fn *visit,
                         void *payload);
 
