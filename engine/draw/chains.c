@@ -129,38 +129,6 @@ static vn_status push_taper(chain_maker *maker, int32_t node) {
     return push_piece(maker, piece);
 }
 
-static vn_status push_chain(chain_maker *maker, int32_t node) {
-    vn_piece piece = {.begin = maker->canvas->points.count, .order = node_order(maker, node)};
-    piece.width = piece.end_width = node_width(maker, node);
-    VN_TRY(push_point(maker, maker->parent[node]));
-    VN_TRY(push_point(maker, node));
-    for (int32_t heir = maker->heirs.data[node]; goes_on(maker, node, heir); heir = maker->heirs.data[node]) {
-        VN_TRY(push_point(maker, heir));
-        node = heir;
-    }
-    return push_piece(maker, piece);
-}
-
-static vn_status push_edges(chain_maker *maker) {
-    const int32_t *order = NULL;
-    VN_TRY(vn_network_order(maker->network, &order));
-    for (int32_t i = 0; i < maker->count; i++) {
-        int32_t node = order != NULL ? order[i] : i;
-        if (i % POLL_EVERY == 0) {
-            VN_TRY(vn_poll());
-        }
-        if (maker->parent[node] < 0 || is_hidden(maker, maker->widths.data[node])) {
-            continue;
-        }
-        if (tapers(maker, node)) {
-            VN_TRY(push_taper(maker, node));
-        } else if (begins(maker, node)) {
-            VN_TRY(push_chain(maker, node));
-        }
-    }
-    return VN_OK;
-}
-
 // Its own inverse.
 static int32_t join_heir(int32_t join) {
     return -2 - join;
@@ -184,6 +152,49 @@ static join_ends join_at(const chain_maker *maker, int32_t join) {
         ends.width = fmin(maker->widths.data[ends.a], maker->widths.data[ends.b]);
     }
     return ends;
+}
+
+// Whether the chain of the edge of @p node, drawn as one width, goes on over the join that continues its vein.
+static bool takes_in(const chain_maker *maker, int32_t node, int32_t join) {
+    double width = join_at(maker, join).width;
+    return !is_hidden(maker, width) && drawn_width(maker, width) == node_width(maker, node) &&
+           vn_network_join_order(maker->network, join) == node_order(maker, node) && !tapers(maker, node);
+}
+
+static vn_status push_chain(chain_maker *maker, int32_t node) {
+    vn_piece piece = {.begin = maker->canvas->points.count, .order = node_order(maker, node)};
+    piece.width = piece.end_width = node_width(maker, node);
+    VN_TRY(push_point(maker, maker->parent[node]));
+    VN_TRY(push_point(maker, node));
+    for (int32_t heir = maker->heirs.data[node]; goes_on(maker, node, heir); heir = maker->heirs.data[node]) {
+        VN_TRY(push_point(maker, heir));
+        node = heir;
+    }
+    int32_t join = join_heir(maker->heirs.data[node]);
+    if (join >= 0 && takes_in(maker, node, join)) {
+        VN_TRY(push_point(maker, join_at(maker, join).b));
+    }
+    return push_piece(maker, piece);
+}
+
+static vn_status push_edges(chain_maker *maker) {
+    const int32_t *order = NULL;
+    VN_TRY(vn_network_order(maker->network, &order));
+    for (int32_t i = 0; i < maker->count; i++) {
+        int32_t node = order != NULL ? order[i] : i;
+        if (i % POLL_EVERY == 0) {
+            VN_TRY(vn_poll());
+        }
+        if (maker->parent[node] < 0 || is_hidden(maker, maker->widths.data[node])) {
+            continue;
+        }
+        if (tapers(maker, node)) {
+            VN_TRY(push_taper(maker, node));
+        } else if (begins(maker, node)) {
+            VN_TRY(push_chain(maker, node));
+        }
+    }
+    return VN_OK;
 }
 
 // Whether the edges' widths follow a law, by which a join has a parent, its end a, and is what b's own edge
@@ -216,7 +227,9 @@ static vn_status push_joins(chain_maker *maker) {
         }
         bool is_heir = maker->heirs.data[ends.a] == join_heir(i);
         bool has_vein = maker->parent[ends.a] >= 0 && !is_hidden(maker, maker->widths.data[ends.a]);
-        VN_TRY(push_join(maker, i, &ends, is_heir && has_vein));
+        if (!is_heir || !has_vein || !takes_in(maker, ends.a, i)) {
+            VN_TRY(push_join(maker, i, &ends, is_heir && has_vein));
+        }
     }
     return VN_OK;
 }
