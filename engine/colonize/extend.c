@@ -55,14 +55,23 @@ static void step_from(const extension *e, int32_t node, const double n[3], doubl
     }
 }
 
-// Coordinates repeat exactly when directions do, but for rounding.
-static bool has_child_at(const extension *e, int32_t node, const double p[3]) {
+// Directions repeat when what draws the node does, to rounding. Lengths need not: where the unit shrinks, the
+// new edge would lie on the old, longer one.
+static bool has_child_toward(const extension *e, int32_t node, const double p[3]) {
     const vn_network *network = e->network;
-    double near = 1e-6 * e->def->length;
+    const double same = 1e-6;
+    double o[3], q[3];
+    vn_network_position(network, node, o);
+    double length = sqrt(vn_distance2(o, p));
     for (int32_t c = network->first_child.data[node]; c >= 0; c = network->next_child.data[c]) {
-        double q[3];
+        double difference2 = 0;
         vn_network_position(network, c, q);
-        if (vn_distance2(p, q) < near * near) {
+        double other = sqrt(vn_distance2(o, q));
+        for (int k = 0; k < 3; k++) {
+            double d = (p[k] - o[k]) / length - (q[k] - o[k]) / other;
+            difference2 += d * d;
+        }
+        if (difference2 < same * same) {
             return true;
         }
     }
@@ -99,7 +108,7 @@ static bool may_step_to(const extension *e, int32_t node, int32_t attractor, dou
     double n[3];
     double distance = direction_to(e, node, attractor, n);
     step_from(e, node, n, p);
-    return e->def->length < 2 * distance && !has_child_at(e, node, p) && stays_inside(e, node, p);
+    return e->def->length < 2 * distance && !has_child_toward(e, node, p) && stays_inside(e, node, p);
 }
 
 // The place toward the first-ranked attractor that a step can be made to.
@@ -379,7 +388,7 @@ static vn_status grow_node(const extension *e) {
     double n[3], p[3];
     bool has_mean = mean_direction(e, n);
     step_from(e, e->node, n, p);
-    bool free = has_mean && !has_child_at(e, e->node, p);
+    bool free = has_mean && !has_child_toward(e, e->node, p);
     bool inside = !free || stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
         VN_TRY(grow_edge(e, p));

@@ -98,9 +98,16 @@ static void oracle_place(int32_t v, const double n[3], double length, double p[3
     }
 }
 
-static bool oracle_has_child(int32_t v, const double p[3], double length) {
+static bool oracle_has_child(int32_t v, const double p[3]) {
+    const double *o = oracle.node[v];
     for (int32_t c = 0; c < oracle.nodes; c++) {
-        if (oracle.parent[c] == v && vn_distance2(p, oracle.node[c]) < 1e-6 * length * (1e-6 * length)) {
+        const double *q = oracle.node[c];
+        double dot = 0, lengths = sqrt(vn_distance2(o, p)) * sqrt(vn_distance2(o, q));
+        for (int k = 0; k < 3; k++) {
+            dot += (p[k] - o[k]) * (q[k] - o[k]);
+        }
+        double cross2 = lengths * lengths - dot * dot; // of the sine of the angle, times both lengths
+        if (oracle.parent[c] == v && dot > 0 && cross2 < 1e-12 * lengths * lengths) {
             return true;
         }
     }
@@ -139,7 +146,7 @@ static bool oracle_one(int32_t v, double length, double p[3]) {
         bool nearer = length < 2 * oracle_direction(v, i, n);
         uint64_t rank = vn_hash(oracle.seed, oracle.sources[i].id, (uint64_t)v, 0);
         oracle_place(v, n, length, q);
-        if (nearer && !oracle_has_child(v, q, length) && (!found || rank < least)) {
+        if (nearer && !oracle_has_child(v, q) && (!found || rank < least)) {
             found = true;
             least = rank;
             memcpy(p, q, sizeof q);
@@ -183,7 +190,7 @@ static int32_t oracle_extend(double length) {
         }
         bool free = oracle_mean(v, n);
         oracle_place(v, n, length, p);
-        free = free && !oracle_has_child(v, p, length);
+        free = free && !oracle_has_child(v, p);
         if (free || oracle_one(v, length, p)) {
             oracle_node(v, p);
         }
