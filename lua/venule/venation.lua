@@ -126,8 +126,9 @@ function Venation:report()
     venule.note(count(retired.hidden, "source") .. " given up: no vein sees them without leaving the blade")
   end
   if retired.circled > 0 then
-    venule.note(("%s given up: veins circle them, as segment_length = %g is too long for kill_distance = %g"):format(
-      count(retired.circled, "source"), self.options.segment_length, self.options.kill_distance))
+    local o = self.options
+    venule.note(("%s given up: no vein came nearer to them, as %ssegment_length = %g is long for kill_distance = %g"):format(
+      count(retired.circled, "source"), o.neighborhood ~= "nearest" and "others are in the way or " or "", o.segment_length, o.kill_distance))
   end
 end
 
