@@ -566,7 +566,7 @@ function testCirclingIsReported()
   local s = leaf {kill_distance = 0.01, segment_length = 3}
   local notes = notes_of(function() s:run() end)
   local last = notes[#notes] -- some may be hidden or left over, too
-  lu.assertStrMatches(last, "%d+ sources? given up: veins circle them, as segment_length = 3 is too long for kill_distance = 0.01")
+  lu.assertStrMatches(last, "%d+ sources? given up: no vein came nearer to them, as segment_length = 3 is long for kill_distance = 0.01")
   lu.assertTrue(s.attractors.retired.circled > 0)
 end
 
