@@ -47,11 +47,33 @@ static double direction_to(const extension *e, int32_t node, int32_t attractor, 
     return length;
 }
 
+// The place @p p of a step from @p q, brought onto the surface. Where the surface bends away from the step,
+// the chord shrinks, and is stretched to the step's length once. A step that leads past the border, or leaves
+// the surface so steeply that hardly anything of it is left, keeps its place off the surface, where it is
+// refused.
+static void step_along_surface(const extension *e, const double q[3], double p[3]) {
+    double length = e->def->length, s[3] = {p[0], p[1], p[2]};
+    double chord = vn_domain_snap(e->def->domain, s) ? sqrt(vn_distance2(s, q)) : 0;
+    if (!(chord > 0.25 * length)) {
+        return;
+    }
+    if (fabs(chord - length) > 0.02 * length) {
+        for (int k = 0; k < 3; k++) {
+            s[k] = q[k] + length / chord * (s[k] - q[k]);
+        }
+        vn_domain_snap(e->def->domain, s);
+    }
+    memcpy(p, s, sizeof s);
+}
+
 static void step_from(const extension *e, int32_t node, const double n[3], double p[3]) {
     double q[3];
     vn_network_position(e->network, node, q);
     for (int k = 0; k < 3; k++) {
         p[k] = q[k] + e->def->length * n[k];
+    }
+    if (e->def->domain != NULL && e->def->domain->kind->snap != NULL) {
+        step_along_surface(e, q, p);
     }
 }
 

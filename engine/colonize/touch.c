@@ -186,6 +186,9 @@ static void place_junction(const touch *t, int32_t i, const int32_t *group, int 
     }
     if (!first || farthest > 2 * t->a->last.length * (1 + 1e-9)) {
         memcpy(p, mean, sizeof mean);
+        if (t->a->last.domain != NULL) {
+            vn_domain_snap(t->a->last.domain, p);
+        }
     }
 }
 

@@ -181,6 +181,9 @@ vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain
         return vn_fail(VN_INVALID, "a domain of %d dimensions cannot be combined with one of %d", a->dim,
                        b->dim);
     }
+    if (a->kind->snap != NULL || b->kind->snap != NULL) {
+        return vn_fail(VN_INVALID, "a surface cannot be combined with a domain: cut its mesh instead");
+    }
     bool exact = a->polygonal && b->polygonal;
     return exact ? combine_polygons(out, a, b, how) : combine_kept(out, a, b, how);
 }

@@ -139,7 +139,23 @@ vn_status vn_domain_fail_dart(const vn_domain *domain) {
         domain->kind->name);
 }
 
+bool vn_domain_snap(const vn_domain *domain, double p[3]) {
+    double q[3];
+    if (domain->kind->snap == NULL) {
+        return true;
+    }
+    bool on = domain->kind->snap(domain, p, q);
+    if (on) {
+        memcpy(p, q, sizeof q);
+    }
+    return on;
+}
+
 vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+    if (domain->kind->dart != NULL) {
+        domain->kind->dart(domain, rng, p);
+        return VN_OK;
+    }
     for (int tries = 0; tries < 1000000; tries++) {
         p[2] = 0;
         for (int k = 0; k < domain->dim; k++) {

@@ -36,6 +36,11 @@ typedef struct vn_domain_kind {
     bool (*is_grown)(const vn_domain *domain);
     /// Bring bounds and measure up to date with what it is made of; NULL: they are always.
     void (*refresh)(vn_domain *domain);
+    /// A uniformly distributed point; NULL: darts into the bounds that contains() takes.
+    void (*dart)(const vn_domain *domain, vn_rng *rng, double p[3]);
+    /// Of surfaces: the nearest point @p q; false when @p p lies beyond the border. NULL: the domain is as
+    /// thick as its space.
+    bool (*snap)(const vn_domain *domain, const double p[3], double q[3]);
 } vn_domain_kind;
 
 /// The head of every kind's own structure.
@@ -56,6 +61,10 @@ void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim);
 
 /// Set `measure` to the area of the outline.
 vn_status vn_domain_measure_outline(vn_domain *domain);
+
+/// Bring @p p onto the domain where that is a surface; elsewhere, and where @p p is beyond the border,
+/// nothing happens. Whether it is where it has to be.
+bool vn_domain_snap(const vn_domain *domain, double p[3]);
 
 /// What vn_domain_dart() fails with.
 vn_status vn_domain_fail_dart(const vn_domain *domain);

@@ -136,11 +136,30 @@ static const vn_growth_kind still_kind = {.name = "none",
                                                      .sees = still_sees,
                                                      .outline = still_outline}};
 
+static void still_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+    const vn_domain *shape = ((const vn_growth *)domain)->shape;
+    shape->kind->dart(shape, rng, p);
+}
+
+static bool still_snap(const vn_domain *domain, const double p[3], double q[3]) {
+    const vn_domain *shape = ((const vn_growth *)domain)->shape;
+    return shape->kind->snap(shape, p, q);
+}
+
+static const vn_domain_kind still_surface_kind = {.name = "blade",
+                                                  .destroy = vn_growth_destroy,
+                                                  .contains = still_contains,
+                                                  .closest = still_closest,
+                                                  .sees = still_sees,
+                                                  .dart = still_dart,
+                                                  .snap = still_snap};
+
 vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def) {
     *out = NULL;
     VN_TRY(vn_check_def(&vn_none_schema, def));
     vn_growth_base base = {def->domain, def->has_origin ? def->origin : NULL, 0};
-    return vn_growth_make(out, &still_kind, &base);
+    bool is_surface = def->domain->kind->snap != NULL;
+    return vn_growth_make(out, is_surface ? &still_surface_kind : &still_kind, &base);
 }
 
 void vn_growth_release(vn_growth *growth) {

@@ -94,7 +94,8 @@ enum { VN_MEET_CROSS, VN_MEET_JOIN };
 
 typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
-    vn_domain *domain; ///< an edge that would leave it is not made; held by the attractors; may be NULL
+    vn_domain *domain; ///< an edge that would leave it is not made, and new nodes are brought onto it where
+                       ///< it is a surface; held by the attractors; may be NULL
     int meet; ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
               ///< it ends there, joined to the other vein (in 2D)
 } vn_extend_def;

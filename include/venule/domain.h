@@ -59,6 +59,29 @@ VN_API vn_profile_def vn_profile_def_default(void);
 /// A leaf blade that mirrors in its midrib, the y axis.
 VN_API vn_status vn_domain_profile(vn_domain **out, const vn_profile_def *def);
 
+/// The surface of a triangle mesh, in 3D. @p xyz holds its vertices as x, y, z, x, y, z, …, @p triangles
+/// three vertices for each triangle, in any orientation; both are copied. Vertices at exactly the same place
+/// count as one. Edges that one triangle has for itself are its border; a closed surface has none.
+///
+/// The surface is as thick as 1e-6 of the diagonal of its bounds to either side: what is in there is inside.
+/// vn_domain_measure() is its area, and darts are spread evenly over that. On the surface,
+/// vn_domain_closest() and vn_domain_distance() ask for the border (infinitely far, where there is none);
+/// beside it, for the surface. vn_domain_sees() follows the section of the surface by the plane through the
+/// line and the surface's mean normal at its ends, which must lead from the one to the other, across no
+/// border, and be at most a fifth longer than the line; the line may rise from the surface by 60°, and the
+/// surface turn by 90° from one end to the other. So the sheets of a fold do not see each other, however near
+/// they are. There is no flat outline, and no combination.
+///
+/// All distances are straight ones in space. That is right where the surface does not come back to itself
+/// within the distances that matter: the attraction, kill and birth distances should be below the distance of
+/// the folds and below the radius of curvature. Where an attraction distance is not, sight keeps veins from
+/// jumping, but sources beyond a fold still turn them.
+///
+/// VN_INVALID for an empty mesh, a vertex beyond ±1e60 or not finite, a corner out of range, a triangle
+/// without area; the message numbers them from 0.
+VN_API vn_status vn_domain_surface(vn_domain **out, const double *xyz, int32_t vertices,
+                                   const int32_t *triangles, int32_t count);
+
 typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_combination;
 /// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every
 /// answer. Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere
@@ -72,7 +95,8 @@ VN_API int vn_domain_dim(const vn_domain *domain);
 /// The length unit of its coordinates as its file gave it ("mm"), or "".
 VN_API const char *vn_domain_unit(const vn_domain *domain);
 VN_API vn_box vn_domain_bounds(const vn_domain *domain);
-/// Its area (2D) or volume (3D). Combinations that are not polygons are measured to about 1e-5 of it.
+/// Its area (2D, and surfaces) or volume (3D). Combinations that are not polygons are measured to about 1e-5
+/// of it.
 VN_API double vn_domain_measure(const vn_domain *domain);
 /// Whether @p p is inside. Points on the border itself may be either, but always the same.
 VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);

@@ -1,0 +1,47 @@
+/// Triangles in space, in a tree of boxes: which one is nearest to a point, and which ones touch it.
+#ifndef VN_SPACE_TRIANGLE_TREE_H
+#define VN_SPACE_TRIANGLE_TREE_H
+
+#include "space/points.h"
+
+/// Its corners. Where the last two are equal it is an edge: the answers hold for that, too.
+typedef struct vn_triangle {
+    double a[3], b[3], c[3];
+} vn_triangle;
+
+typedef struct vn_triangle_box {
+    double low[3], high[3];
+} vn_triangle_box;
+
+enum { VN_TRIANGLE_LEVELS = 16 };
+
+/// A zeroed one is empty and owns nothing.
+typedef struct vn_triangle_tree {
+    VN_ARRAY(vn_triangle) triangles; ///< along a space-filling curve
+    VN_ARRAY(int32_t) numbers;       ///< of each of them, as they were given
+    VN_ARRAY(vn_triangle_box) boxes; ///< level 0 round runs of triangles, each next one round runs of boxes
+    int32_t starts[VN_TRIANGLE_LEVELS + 1];
+    int levels;
+} vn_triangle_tree;
+
+/// The nearest point @p q of the triangle; returns its squared distance.
+double vn_triangle_closest(const vn_triangle *triangle, const double p[3], double q[3]);
+
+/// Build it of @p count triangles, a copy of which it keeps. All corners are finite.
+vn_status vn_triangle_tree_build(vn_triangle_tree *tree, const vn_triangle *triangles, int32_t count);
+void vn_triangle_tree_free(vn_triangle_tree *tree);
+
+/// The number of the triangle nearest to @p p, among those within squared distance @p reach2, or -1; of
+/// equally near ones the lowest number. @p d2 gets the squared distance, @p q the nearest point.
+int32_t vn_triangle_tree_nearest(const vn_triangle_tree *tree, const double p[3], double reach2, double *d2,
+                                 double q[3]);
+
+/// Called with a triangle's number; false ends the visit.
+typedef bool vn_triangle_visit(int32_t number, void *payload);
+
+/// Visit all triangles within squared distance @p reach2 of @p p, in an order that depends on the tree alone.
+/// False when a visit was ended.
+bool vn_triangle_tree_around(const vn_triangle_tree *tree, const double p[3], double reach2,
+                             vn_triangle_visit *visit, void *payload);
+
+#endif
