@@ -1,6 +1,7 @@
 #include "bind/bind.h"
 
 #include "domain/domain.h"
+#include "file/mesh.h"
 #include "file/svg.h"
 
 #include <string.h>
@@ -167,6 +168,88 @@ static int make_svg(lua_State *L) {
     return 1;
 }
 
+// Push the list of a mesh table, and say how long it is.
+static int32_t push_list(lua_State *L, const char *field) {
+    if (vnl_raw_field(L, 1, field) != LUA_TTABLE) {
+        vnl_fail(L, "mesh.%s: a list expected, got %s", field, luaL_typename(L, -1));
+    }
+    lua_Integer count = (lua_Integer)lua_rawlen(L, -1);
+    if (count > 100000000) {
+        vnl_fail(L, "mesh.%s: %lld are above the limit of 100,000,000", field, (long long)count);
+    }
+    return (int32_t)count;
+}
+
+static double *read_vertices(lua_State *L, int32_t *count) {
+    *count = push_list(L, "vertices");
+    int list = lua_gettop(L);
+    double *xyz = lua_newuserdatauv(L, (3 * (size_t)*count + 1) * sizeof *xyz, 0);
+    for (int32_t i = 0; i < *count; i++, lua_pop(L, 1)) {
+        lua_rawgeti(L, list, i + 1);
+        if (vnl_read_point(L, -1, "mesh.vertices", xyz + 3 * (size_t)i) != 3) {
+            vnl_fail(L, "mesh.vertices[%d]: a point {x, y, z} expected, of 3 coordinates", (int)i + 1);
+        }
+    }
+    return xyz;
+}
+
+static int32_t *read_sizes(lua_State *L, int list, int32_t count, int64_t *corners) {
+    int32_t *sizes = lua_newuserdatauv(L, ((size_t)count + 1) * sizeof *sizes, 0);
+    *corners = 0;
+    for (int32_t i = 0; i < count; i++, lua_pop(L, 1)) {
+        if (lua_rawgeti(L, list, i + 1) != LUA_TTABLE) {
+            vnl_fail(L, "mesh.faces[%d]: a list of vertex numbers expected, got %s", (int)i + 1,
+                     luaL_typename(L, -1));
+        }
+        lua_Unsigned size = lua_rawlen(L, -1);
+        sizes[i] = size < 100000 ? (int32_t)size : 100000;
+        *corners += sizes[i];
+    }
+    return sizes;
+}
+
+// The engine counts from 0. What is out of its numbers' range becomes -1, which is out of every range.
+static int32_t *read_corners(lua_State *L, int list, const int32_t *sizes, int32_t count, int64_t corners) {
+    int32_t *all = lua_newuserdatauv(L, ((size_t)corners + 1) * sizeof *all, 0), *at = all;
+    for (int32_t i = 0; i < count; i++, lua_pop(L, 1)) {
+        lua_rawgeti(L, list, i + 1);
+        for (int32_t k = 0; k < sizes[i]; k++, lua_pop(L, 1)) {
+            lua_rawgeti(L, -1, k + 1);
+            lua_Integer number = vnl_check_integer(L, -1, "mesh.faces");
+            *at++ = number >= 1 && number <= INT32_MAX ? (int32_t)(number - 1) : -1;
+        }
+    }
+    return all;
+}
+
+static void make_faces(lua_State *L, vn_domain **domain) {
+    vn_faces faces = {.what = "mesh", .first = 1};
+    int64_t corners;
+    faces.xyz = read_vertices(L, &faces.vertices);
+    faces.count = push_list(L, "faces");
+    int list = lua_gettop(L);
+    int32_t *sizes = read_sizes(L, list, faces.count, &corners);
+    faces.sizes = sizes;
+    faces.corners = read_corners(L, list, sizes, faces.count, corners);
+    vnl_try(L, vn_domain_faces(domain, &faces));
+}
+
+static int make_mesh(lua_State *L) {
+    vn_mesh_def def;
+    lua_settop(L, 2);
+    vnl_read_options(L, 2, &vn_mesh_schema, &def);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    int result = lua_gettop(L);
+    if (lua_istable(L, 1)) {
+        make_faces(L, (vn_domain **)box);
+    } else {
+        const char *path = vnl_push_path(L, 1);
+        vnl_try(L, vn_domain_mesh((vn_domain **)box, path, &def));
+    }
+    lua_settop(L, result);
+    return 1;
+}
+
 const vnl_function vnl_domain_functions[] = {
     {"disk", make_disk, NULL, "venule.Domain", "A disk.", &vn_disk_schema},
     {"sphere", make_sphere, NULL, "venule.Domain", "A ball in 3D.", &vn_disk_schema},
@@ -183,6 +266,18 @@ const vnl_function vnl_domain_functions[] = {
      "becomes "
      "(0, 0), or in mm when the file gives its width in mm, cm, in or pt.",
      &vn_svg_schema},
+    {"mesh", make_mesh,
+     "(mesh: string|{vertices: number[][], faces: integer[][]}, options?: venule.mesh.Options): "
+     "venule.Domain",
+     NULL,
+     "The surface of a mesh in 3D: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} "
+     "and "
+     "of faces {a, b, c, …}, which count the vertices from 1. Veins grow along it: new nodes are brought "
+     "onto "
+     "it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight "
+     "ones "
+     "in space: `within` should be below the distance of folds.",
+     &vn_mesh_schema},
     {0},
 };
 
@@ -305,13 +400,15 @@ const vnl_function vnl_domain_methods[] = {
     {"contains", domain_contains, "(x: number, y: number, z?: number): boolean", NULL,
      "Whether a point is inside.", NULL},
     {"distance", domain_distance, "(x: number, y: number, z?: number): number", NULL,
-     "The distance to the border: positive inside, negative outside.", NULL},
+     "The distance to the border: positive inside, negative outside. Beside a surface: to the surface.",
+     NULL},
     {"closest", domain_closest, "(x: number, y: number, z?: number): number, number, number?", NULL,
-     "The border's nearest point.", NULL},
+     "The border's nearest point. Beside a surface: the surface's.", NULL},
     {"value", domain_value, "(x: number, y: number, z?: number): number", NULL,
      "Its value there, in [0, 1]: 1 inside and 0 outside where it has no values of its own.", NULL},
     {"bounds", domain_bounds, "(): venule.Bounds", NULL, "The box around it: {min = {…}, max = {…}}.", NULL},
-    {"measure", domain_measure, "(): number", NULL, "Its area, or in 3D its volume.", NULL},
+    {"measure", domain_measure, "(): number", NULL, "Its area, or in 3D its volume; of a surface its area.",
+     NULL},
     {"sample", domain_sample, "(n: integer, options: venule.sample.Options): number[][]", NULL,
      "Throw n darts, uniformly distributed; the points {x, y} of those that stick. `rng` is required; with "
      "`spacing` a "

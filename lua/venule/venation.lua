@@ -27,8 +27,8 @@ Venation.__index = Venation
 
 local function start_network(o, blade)
   if o.network then return o.network end
-  local network = venule.network {murray = o.murray, unit = o.unit}
-  for _, p in ipairs(o.roots or {blade.origin}) do network:root(p[1], p[2]) end
+  local network = venule.network {dim = blade.dim, murray = o.murray, unit = o.unit}
+  for _, p in ipairs(o.roots or {blade.origin}) do network:root(p[1], p[2], p[3]) end
   return network
 end
 
@@ -64,7 +64,7 @@ local function venation(given)
     blade = blade,
     grows = not blade.grown,
     network = start_network(o, blade),
-    attractors = venule.attractors {},
+    attractors = venule.attractors {dim = blade.dim},
     idle = 0,
   }, Venation)
 end

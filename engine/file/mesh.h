@@ -1,0 +1,24 @@
+/// Meshes from files, for the engine's own files.
+#ifndef VN_FILE_MESH_H
+#define VN_FILE_MESH_H
+
+#include "base/schema.h"
+#include "domain/faces.h"
+#include "venule/output.h"
+
+extern const vn_schema vn_mesh_schema;
+
+/// A zeroed one is empty.
+typedef struct vn_polygons {
+    VN_ARRAY(double) xyz; ///< x, y, z of each vertex
+    vn_corners corners;   ///< face after face; not checked
+    VN_ARRAY(int32_t) sizes;
+} vn_polygons;
+
+void vn_polygons_free(vn_polygons *polygons);
+
+/// The vertices and faces of a file (cgal_mesh_reader.cpp). VN_IO with what is wrong with it; @p polygons
+/// then holds nothing of use, and is to be freed all the same.
+vn_status vn_mesh_read(vn_polygons *polygons, const char *path);
+
+#endif
