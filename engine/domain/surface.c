@@ -336,6 +336,7 @@ static vn_status find_twins(const surface *s, vn_keyed_array *order, vn_keyed_ar
 }
 
 static uint64_t edge_key(const surface *s, const vn_corners *first, int32_t h) {
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): every vertex has a first one
     uint64_t a = (uint64_t)first->data[s->corners.data[h]];
     uint64_t b = (uint64_t)first->data[s->corners.data[h - h % 3 + (h + 1) % 3]];
     return a < b ? a << 32 | b : b << 32 | a;

@@ -1,5 +1,5 @@
-// A tree of our own, because venation asks it several times for each new node: CGAL's tree takes many times
-// as long to find a nearest point, and holds memory that no budget sees.
+// A tree of our own rather than CGAL's: it stays within the memory budget, gives ties to the lower number,
+// and takes edges beside triangles.
 
 #include "space/triangle_tree.h"
 

@@ -39,6 +39,8 @@ static const char scenario[] =
     "veins:orders('hickey', {ratio = 0.5})\n"
     "assert(veins:measure({leaf = true, domain = shape, resolution = 1}).leaf.area > 10)\n"
     "shape:sample(20, {spacing = 0.5, rng = rng})\n"
+    "local sheet = {vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 1}}, faces = {{1, 2, 3, 4}}}\n"
+    "venule.domain.mesh(sheet, {on = 'surface'}):sample(9, {rng = rng})\n"
     "local page = venule.canvas {view = blade:bounds(), width = 60, background = 'white'}\n"
     "page:fill(blade, {color = 'teal'})\n"
     "page:stroke(veins, {color = '#3d5c2b'})\n"

@@ -192,8 +192,9 @@ static void darts_are_spread_evenly_over_the_area(void **state) {
     double chi2 = 0;
     for (int k = 0; k < SIDE * SIDE; k++) {
         double p[3], q[3];
-        uneven((double)(k % SIDE) / SIDE, (double)(k / SIDE) / SIDE, p);
-        uneven((k % SIDE + 1.0) / SIDE, (k / SIDE + 1.0) / SIDE, q);
+        int i = k % SIDE, j = k / SIDE;
+        uneven((double)i / SIDE, (double)j / SIDE, p);
+        uneven((i + 1.0) / SIDE, (j + 1.0) / SIDE, q);
         double area = hypot(q[0] - p[0], q[2] - p[2]) * (q[1] - p[1]);
         double expected = DARTS * area / vn_domain_measure(domain);
         chi2 += (hits[k] - expected) * (hits[k] - expected) / expected;
