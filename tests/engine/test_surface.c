@@ -690,50 +690,6 @@ static void venation_closes_in_a_solid(void **state) {
     vn_domain_release(r.domain);
 }
 
-// ---- What is refused ----
-
-static const double corners3[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
-
-static vn_status try_mesh(const double *xyz, int32_t vertices, const int32_t *triangles, int32_t count) {
-    vn_domain *domain;
-    vn_status status = vn_domain_surface(&domain, xyz, vertices, triangles, count);
-    assert_true((domain == NULL) == (status != VN_OK));
-    vn_domain_release(domain);
-    return status;
-}
-
-static void bad_meshes_are_refused_with_their_place(void **state) {
-    (void)state;
-    static const int32_t good[] = {0, 1, 2, 1, 3, 2};
-    assert_ok(try_mesh(corners3, 4, good, 2));
-    assert_int_equal(try_mesh(corners3, 4, good, 0), VN_INVALID);
-    assert_message("surface: the mesh is empty: it has 4 vertices and 0 faces");
-    assert_int_equal(try_mesh(corners3, 0, good, 2), VN_INVALID);
-    assert_int_equal(try_mesh(corners3, -1, good, -1), VN_INVALID);
-    assert_int_equal(try_mesh(corners3, 3, good, 2), VN_INVALID);
-    assert_message("surface: face 1 has a corner at vertex 3, but the vertices are 0 to 2");
-    assert_int_equal(try_mesh(corners3, 4, (int32_t[]){0, 1, 2, 0, -7, 1}, 2), VN_INVALID);
-    assert_message("face 1 has a corner at vertex -7");
-    assert_int_equal(try_mesh(corners3, 4, (int32_t[]){0, 1, 1}, 1), VN_INVALID);
-    assert_message("surface: face 0 has no area");
-    double xyz[12];
-    static const double wrong[] = {NAN, INFINITY, -INFINITY, 1e61};
-    for (int k = 0; k < 4; k++) {
-        memcpy(xyz, corners3, sizeof xyz);
-        xyz[7] = wrong[k];
-        assert_int_equal(try_mesh(xyz, 4, good, 2), VN_INVALID);
-        assert_message("surface: vertex 2: y = ");
-    }
-    memset(xyz, 0, sizeof xyz);
-    assert_int_equal(try_mesh(xyz, 4, good, 2), VN_INVALID);
-    assert_message("all at one place");
-    for (int i = 0; i < 4; i++) {
-        set(xyz + 3 * i, 1 + 0.1 * i, 2 + 0.2 * i, 3 + 0.3 * i); // on one line, but for rounding
-    }
-    assert_int_equal(try_mesh(xyz, 4, good, 2), VN_INVALID);
-    assert_message("no area");
-}
-
 static void a_surface_is_not_combined(void **state) {
     (void)state;
     mesh m = sheet(flat, 2, 2);
@@ -743,74 +699,6 @@ static void a_surface_is_not_combined(void **state) {
     assert_int_equal(vn_domain_combine(&out, ball, surface, VN_UNION), VN_INVALID);
     vn_domain_release(ball);
     vn_domain_release(surface);
-}
-
-static vn_status cut(const double *xyz, int32_t vertices, int32_t size, vn_corners *out) {
-    int32_t corners[1100];
-    for (int32_t i = 0; i < size; i++) {
-        corners[i] = i;
-    }
-    vn_faces faces = {.what = "f.obj",
-                      .first = 1,
-                      .xyz = xyz,
-                      .vertices = vertices,
-                      .corners = corners,
-                      .sizes = &size,
-                      .count = 1};
-    return vn_faces_triangulate(&faces, out);
-}
-
-// The triangles of a face have its area, and turn as it does.
-static void polygons_are_cut_into_triangles(void **state) {
-    (void)state;
-    vn_rng rng = vn_rng_make(3);
-    for (int32_t size = 3; size <= 40; size++) {
-        double xyz[3 * 40], area = 0, sum = 0, n[3];
-        for (int32_t i = 0; i < size; i++) { // star-shaped about the origin, in a tilted plane
-            double angle = 2 * pi * i / size, radius = uniform(&rng, size == 4 ? 0.2 : 0.5, 1.5);
-            double x = radius * cos(angle), y = radius * sin(angle);
-            set(xyz + 3 * i, x, y, 0.5 * x - 0.2 * y);
-        }
-        for (int32_t i = 0; i < size; i++) {
-            const double *p = xyz + 3 * i, *q = xyz + 3 * ((i + 1) % size);
-            area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
-        }
-        vn_corners triangles = {0};
-        assert_ok(cut(xyz, size, size, &triangles));
-        assert_int_equal(triangles.count, 3 * (size - 2));
-        for (int32_t t = 0; t < triangles.count; t += 3) {
-            const int32_t *c = triangles.data + t;
-            cross_of(xyz + 3 * c[0], xyz + 3 * c[1], xyz + 3 * c[2], n);
-            assert_true(n[2] > 0);
-            sum += 0.5 * n[2];
-        }
-        assert_near(sum, area, 1e-12);
-        vn_array_free(&triangles);
-    }
-    vn_corners none = {0};
-    static const double bow[] = {0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0};
-    double many[3 * 1001] = {1};
-    assert_int_equal(cut(bow, 4, 4, &none), VN_INVALID);
-    assert_message("f.obj: face 1 crosses itself");
-    assert_int_equal(cut(bow, 4, 2, &none), VN_INVALID);
-    assert_message("f.obj: face 1 has 2 corners");
-    assert_int_equal(cut(many, 1001, 1001, &none), VN_INVALID);
-    assert_message("more than 1000");
-    vn_array_free(&none);
-}
-
-static void a_mesh_loses_nothing_when_memory_runs_out(void **state) {
-    (void)state;
-    mesh m = sheet(cap, 5, 5);
-    vn_status status = VN_NO_MEMORY;
-    for (int64_t nth = 0; status == VN_NO_MEMORY; nth++) {
-        vn_fail_allocations_from(nth);
-        status = try_mesh(m.xyz.data, m.xyz.count / 3, m.corners.data, m.corners.count / 3);
-        vn_fail_allocations_from(-1);
-        assert_true(nth < 100);
-    }
-    assert_ok(status);
-    free_mesh(&m);
 }
 
 int main(void) {
@@ -829,10 +717,7 @@ int main(void) {
         counted_test(a_still_blade_of_a_surface_is_that_surface),
         counted_test(a_flat_mesh_grows_what_its_square_grows),
         counted_test(venation_closes_in_a_solid),
-        counted_test(bad_meshes_are_refused_with_their_place),
         counted_test(a_surface_is_not_combined),
-        counted_test(polygons_are_cut_into_triangles),
-        counted_test(a_mesh_loses_nothing_when_memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
