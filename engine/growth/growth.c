@@ -59,6 +59,10 @@ static vn_status check_shape(const vn_growth_kind *kind, const vn_domain *domain
     if (domain->kind->is_grown != NULL) {
         return vn_fail(VN_INVALID, "a growth of a growing domain: give the shape itself");
     }
+    if (domain->kind->snap != NULL && kind->domain.snap == NULL) {
+        return vn_fail(VN_INVALID, "%s.domain is a surface, which does not grow: use venule.growth.none",
+                       kind->name);
+    }
     if (kind->move != NULL && domain->dim != 2) {
         return vn_fail(VN_INVALID, "%s.domain has %d dimensions; its tissue moves in the plane", kind->name,
                        domain->dim);
@@ -146,13 +150,15 @@ static bool still_snap(const vn_domain *domain, const double p[3], double q[3]) 
     return shape->kind->snap(shape, p, q);
 }
 
-static const vn_domain_kind still_surface_kind = {.name = "blade",
-                                                  .destroy = vn_growth_destroy,
-                                                  .contains = still_contains,
-                                                  .closest = still_closest,
-                                                  .sees = still_sees,
-                                                  .dart = still_dart,
-                                                  .snap = still_snap};
+static const vn_growth_kind still_surface_kind = {.name = "none",
+                                                  .size = sizeof(vn_growth),
+                                                  .domain = {.name = "blade",
+                                                             .destroy = vn_growth_destroy,
+                                                             .contains = still_contains,
+                                                             .closest = still_closest,
+                                                             .sees = still_sees,
+                                                             .dart = still_dart,
+                                                             .snap = still_snap}};
 
 vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def) {
     *out = NULL;

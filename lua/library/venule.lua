@@ -402,6 +402,15 @@ function venule.domain.profile(options) end
 ---@return venule.Domain
 function venule.domain.svg(path, options) end
 
+---@class (exact) venule.mesh.Options
+---@field on? "surface" # what of the mesh is the domain: its surface (default "surface")
+
+---The surface of a mesh in 3D: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along it: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds.
+---@param mesh string|{vertices: number[][], faces: integer[][]}
+---@param options? venule.mesh.Options
+---@return venule.Domain
+function venule.domain.mesh(mesh, options) end
+
 ---@class (exact) venule.none.Options
 ---@field domain venule.Domain|venule.Growth # the shape, which stays as it is
 
@@ -490,14 +499,14 @@ local Domain = {}
 ---@return boolean
 function Domain:contains(x, y, z) end
 
----The distance to the border: positive inside, negative outside.
+---The distance to the border: positive inside, negative outside. Beside a surface: to the surface.
 ---@param x number
 ---@param y number
 ---@param z? number
 ---@return number
 function Domain:distance(x, y, z) end
 
----The border's nearest point.
+---The border's nearest point. Beside a surface: the surface's.
 ---@param x number
 ---@param y number
 ---@param z? number
@@ -515,7 +524,7 @@ function Domain:value(x, y, z) end
 ---@return venule.Bounds
 function Domain:bounds() end
 
----Its area, or in 3D its volume.
+---Its area, or in 3D its volume; of a surface its area.
 ---@return number
 function Domain:measure() end
 
@@ -542,7 +551,7 @@ function Domain:sample(n, options) end
 ---@field dim integer # 2 or 3
 local Growth = {}
 
----Grow by one step. Networks and attractors move with the tissue, edges that are stretched beyond `split` are split, and the attractors that a margin has passed are released, away from the network. False when it was grown already.
+---Grow by one step. Networks and attractors move with the tissue, edges stretched beyond `split` are split, and the attractors that a margin has passed are released, away from the network. False when it was grown already.
 ---@param ... venule.Network|venule.Attractors
 ---@return boolean
 function Growth:advance(...) end
