@@ -48,6 +48,9 @@ class Delaunay2 final : public Delaunay<Triangulation, Point> {
     double neighbors(const double p[3], int32_t near) override {
         Point point(p[0], p[1]);
         found.clear();
+        if (triangulation.dimension() < 1) {
+            return find_everybody(); // one place has no face to be found in
+        }
         Triangulation::Locate_type type;
         int li;
         Triangulation::Face_handle face = triangulation.locate(point, type, li, face_near(near));
