@@ -133,6 +133,7 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
 void vn_ties_forget(vn_attractors *a) {
     for (int32_t i = 0; i < a->first_tie.count; i++) {
         a->guards.data[i] = no_guards;
+        a->stage.data[i] &= (uint8_t)~VN_OUTDATED;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
         }
@@ -148,6 +149,10 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
         a->first_tie.data[to] = first;
         a->stage.data[to] = a->stage.data[from];
         a->guards.data[to] = a->guards.data[from];
+    } else if (to < a->first_tie.count) { // a newcomer: what the place held before is none of its
+        a->first_tie.data[to] = -1;
+        a->stage.data[to] = VN_FREE;
+        a->guards.data[to] = no_guards;
     }
 }
 
