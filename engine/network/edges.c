@@ -48,54 +48,92 @@ typedef struct way {
     const vn_network *network;
     int32_t node, to;
     vn_segment segment;
+    double
+        near; ///< what comes this close is met: rounding must not decide on which side of an edge a node is
     vn_meeting *first;
     bool meets;
 } way;
 
-// The part of segment @p s up to the line of @p t; they touch. Where they are parallel they share a line, and
-// one of t's ends is what is met first.
+// The part of segment @p s at which it is nearest to a point, if that is near enough; else 2.
+static double part_near(const vn_segment *s, double x, double y, double near) {
+    double sx = s->x1 - s->x0, sy = s->y1 - s->y0;
+    double length2 = sx * sx + sy * sy;
+    double part = length2 > 0 ? ((x - s->x0) * sx + (y - s->y0) * sy) / length2 : 0;
+    part = fmin(fmax(part, 0), 1);
+    double dx = s->x0 + part * sx - x, dy = s->y0 + part * sy - y;
+    return dx * dx + dy * dy <= near * near ? part : 2;
+}
+
+// The part of segment @p s up to the line of @p t; they cross. Parallel ones have ends that are met first.
 static double part_until(const vn_segment *s, const vn_segment *t) {
     double sx = s->x1 - s->x0, sy = s->y1 - s->y0;
     double tx = t->x1 - t->x0, ty = t->y1 - t->y0;
     double ax = t->x0 - s->x0, ay = t->y0 - s->y0;
-    double across = sx * ty - sy * tx;
-    double length2 = sx * sx + sy * sy;
-    double part = (ax * ty - ay * tx) / across;
-    if (!isfinite(part)) {
-        double bx = t->x1 - s->x0, by = t->y1 - s->y0;
-        part = fmin(ax * sx + ay * sy, bx * sx + by * sy) / length2;
-    }
-    return fmin(fmax(part, 0), 1);
+    double part = (ax * ty - ay * tx) / (sx * ty - sy * tx);
+    return isfinite(part) ? fmin(fmax(part, 0), 1) : 1;
 }
 
-static void note_meeting(way *w, int32_t edge, double part) {
+// The part of segment @p s at which it first meets @p t; 2 where it does not.
+static double part_met(const vn_segment *s, const vn_segment *t, double near) {
+    double part = vn_segments_touch(s, t) ? part_until(s, t) : 2;
+    part = part_near(t, s->x0, s->y0, near) <= 1 ? 0 : part;
+    part = part_near(t, s->x1, s->y1, near) <= 1 ? fmin(part, 1) : part;
+    part = fmin(part, part_near(s, t->x0, t->y0, near));
+    return fmin(part, part_near(s, t->x1, t->y1, near));
+}
+
+// Where they share the first end of @p s: whether one lies along the other beyond it.
+static bool runs_along(const vn_segment *s, double ox, double oy, double near) {
+    double forward = (ox - s->x0) * (s->x1 - s->x0) + (oy - s->y0) * (s->y1 - s->y0);
+    double far2 = (ox - s->x0) * (ox - s->x0) + (oy - s->y0) * (oy - s->y0);
+    vn_segment other = {s->x0, s->y0, ox, oy};
+    return forward > 0 && far2 > near * near &&
+           (part_near(s, ox, oy, near) <= 1 || part_near(&other, s->x1, s->y1, near) <= 1);
+}
+
+static void note_meeting(way *w, int32_t edge, const vn_segment *t, double part) {
     bool first = !w->meets || part < w->first->way || (part == w->first->way && edge < w->first->edge);
     if (first) {
         const vn_segment *s = &w->segment;
         double x = s->x0 + part * (s->x1 - s->x0), y = s->y0 + part * (s->y1 - s->y0);
-        *w->first = (vn_meeting){edge, part, {x, y, 0}};
+        double on = part_near(t, x, y, INFINITY);
+        *w->first = (vn_meeting){edge, part, {t->x0 + on * (t->x1 - t->x0), t->y0 + on * (t->y1 - t->y0), 0}};
         w->meets = true;
     }
 }
 
-// An edge of the node itself is met only where the way runs along it.
-static bool runs_along(const vn_segment *s, const vn_segment *t, bool from_first) {
-    double ox = from_first ? t->x1 : t->x0, oy = from_first ? t->y1 : t->y0;
-    double forward = (ox - s->x0) * (s->x1 - s->x0) + (oy - s->y0) * (s->y1 - s->y0);
-    return forward > 0 && vn_turn(s->x0, s->y0, s->x1, s->y1, ox, oy) == 0;
+static bool are_apart(const vn_segment *s, const vn_segment *t, double near) {
+    return fmin(s->x0, s->x1) > fmax(t->x0, t->x1) + near || fmin(t->x0, t->x1) > fmax(s->x0, s->x1) + near ||
+           fmin(s->y0, s->y1) > fmax(t->y0, t->y1) + near || fmin(t->y0, t->y1) > fmax(s->y0, s->y1) + near;
 }
 
+// An edge of the node itself, or of the node that the way leads to, is met only where the way runs along it.
 static bool test_edge(int32_t edge, void *payload) {
     way *w = payload;
+    const double *x = w->network->x.data, *y = w->network->y.data;
+    vn_segment t = vn_network_segment(w->network, edge), s = w->segment;
+    if (are_apart(&s, &t, w->near)) {
+        return true;
+    }
     int32_t a, b;
-    vn_segment segment = vn_network_segment(w->network, edge);
     vn_network_edge_ends(w->network, edge, &a, &b);
+    vn_segment back = {s.x1, s.y1, s.x0, s.y0};
     if (a == w->node || b == w->node) {
-        if (runs_along(&w->segment, &segment, a == w->node)) {
-            note_meeting(w, edge, 0);
+        int32_t other = a == w->node ? b : a;
+        if (other == w->to || runs_along(&s, x[other], y[other], w->near)) {
+            note_meeting(w, edge, &t, 0);
         }
-    } else if (a != w->to && b != w->to && vn_segments_touch(&w->segment, &segment)) {
-        note_meeting(w, edge, part_until(&w->segment, &segment));
+    } else if (a == w->to || b == w->to) {
+        int32_t other = a == w->to ? b : a;
+        double part = part_near(&s, x[other], y[other], INFINITY);
+        if (runs_along(&back, x[other], y[other], w->near)) {
+            note_meeting(w, edge, &t, part);
+        }
+    } else {
+        double part = part_met(&s, &t, w->near);
+        if (part <= 1) {
+            note_meeting(w, edge, &t, part);
+        }
     }
     return true;
 }
@@ -105,7 +143,7 @@ vn_status vn_network_meets(vn_network *network, int32_t node, const double p[3],
     *meets = false;
     VN_TRY(renew_edges(network, typical));
     vn_segment segment = {network->x.data[node], network->y.data[node], p[0], p[1]};
-    way w = {network, node, to, segment, meeting, false};
+    way w = {network, node, to, segment, VN_NEAR_EDGE * typical, meeting, false};
     vn_edge_grid_visit(&network->edges, &segment, test_edge, &w);
     *meets = w.meets;
     return VN_OK;

@@ -105,10 +105,13 @@ void vn_network_edge_ends(const vn_network *network, int32_t edge, int32_t *a, i
 typedef struct vn_meeting {
     int32_t edge; ///< as vn_network_segment() names it
     double way;   ///< the part of the way up to there, 0 to 1; 0 when it runs along an edge of its own node
-    double p[3];
+    double p[3];  ///< on the edge
 } vn_meeting;
+/// How near a way has to come to an edge to meet it, in typical lengths.
+#define VN_NEAR_EDGE 1e-6
 /// Whether the way from @p node to @p p meets an edge of this flat network other than at @p node itself, or
-/// at node @p to, which may be -1. @p typical is a length that most new edges have.
+/// at node @p to, which may be -1. @p typical is a length that most new edges have; the edge is met from
+/// VN_NEAR_EDGE of it on.
 vn_status vn_network_meets(vn_network *network, int32_t node, const double p[3], int32_t to, double typical,
                            bool *meets, vn_meeting *meeting);
 

@@ -16,8 +16,9 @@ vn_status vn_edge_grid_init(vn_edge_grid *grid, double cell, int32_t edges) {
         buckets *= 2;
     }
     vn_edge_grid_free(grid);
-    grid->cell = cell;
+    grid->cell = 0; // until it is ready
     VN_TRY(vn_array_reserve(&grid->heads, buckets));
+    grid->cell = cell;
     grid->heads.count = (int32_t)buckets;
     for (int64_t b = 0; b < buckets; b++) {
         grid->heads.data[b] = -1;
@@ -42,41 +43,50 @@ static int32_t bucket_of(const vn_edge_grid *grid, int64_t i, int64_t j) {
     return (int32_t)((uint32_t)(h >> 32) & (uint32_t)(grid->heads.count - 1));
 }
 
+// How much wider than it is a segment is taken, so that what comes as near as a hundred-thousandth of a cell
+// is found; and what rounding makes of it far from the origin.
+static double slack_of(const vn_edge_grid *grid, const vn_segment *s) {
+    double far = fmax(fmax(fabs(s->x0), fabs(s->x1)), fmax(fabs(s->y0), fabs(s->y1)));
+    return 1e-5 * grid->cell + 1e-15 * far;
+}
+
 /// The cells of one row that a segment passes, a little too many rather than too few.
 typedef struct vn_row {
     int64_t j, from, to;
 } vn_row;
 
 static vn_row row_of(const vn_edge_grid *grid, const vn_segment *s, int64_t j) {
-    double low = fmin(s->x0, s->x1), high = fmax(s->x0, s->x1), rise = s->y1 - s->y0;
+    double slack = slack_of(grid, s), rise = s->y1 - s->y0;
+    double low = fmin(s->x0, s->x1) - slack, high = fmax(s->x0, s->x1) + slack;
     if (fabs(rise) > 0.5 * grid->cell) { // where it is flatter, all of it
         double slope = (s->x1 - s->x0) / rise;
         double a = s->x0 + ((double)j * grid->cell - s->y0) * slope;
         double b = s->x0 + ((double)(j + 1) * grid->cell - s->y0) * slope;
-        double slack = 1e-6 * grid->cell;
-        low = fmax(low, fmin(a, b) - slack);
-        high = fmin(high, fmax(a, b) + slack);
+        double wide = slack * (1 + fabs(slope));
+        low = fmax(low, fmin(a, b) - wide);
+        high = fmin(high, fmax(a, b) + wide);
     }
     return (vn_row){j, cell_of(grid, low), cell_of(grid, high)};
 }
 
 // Not above, and not below: floats keep seven digits, of which the last is given away.
-static float below(double a, double b) {
-    double low = a < b ? a : b;
+static float below(double a, double b, double slack) {
+    double low = (a < b ? a : b) - slack;
     return (float)(low - 1e-6 * fabs(low));
 }
 
-static float above(double a, double b) {
-    double high = a > b ? a : b;
+static float above(double a, double b, double slack) {
+    double high = (a > b ? a : b) + slack;
     return (float)(high + 1e-6 * fabs(high));
 }
 
-static vn_edge_entry entry_of(int32_t edge, const vn_segment *s) {
+static vn_edge_entry entry_of(const vn_edge_grid *grid, int32_t edge, const vn_segment *s) {
+    double slack = slack_of(grid, s);
     return (vn_edge_entry){.edge = edge,
-                           .low_x = below(s->x0, s->x1),
-                           .low_y = below(s->y0, s->y1),
-                           .high_x = above(s->x0, s->x1),
-                           .high_y = above(s->y0, s->y1)};
+                           .low_x = below(s->x0, s->x1, slack),
+                           .low_y = below(s->y0, s->y1, slack),
+                           .high_x = above(s->x0, s->x1, slack),
+                           .high_y = above(s->y0, s->y1, slack)};
 }
 
 static bool overlap(const vn_edge_entry *a, const vn_edge_entry *b) {
@@ -99,10 +109,11 @@ vn_status vn_edge_grid_insert(vn_edge_grid *grid, int32_t edge, const vn_segment
         return vn_fail(VN_LIMIT, "an edge is %g times as long as the new ones: split edges as they grow",
                        cells);
     }
-    int64_t last = cell_of(grid, fmax(s->y0, s->y1));
-    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
+    double slack = slack_of(grid, s);
+    int64_t last = cell_of(grid, fmax(s->y0, s->y1) + slack);
+    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1) - slack); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
-        VN_TRY(list_edge(grid, entry_of(edge, s), &row));
+        VN_TRY(list_edge(grid, entry_of(grid, edge, s), &row));
     }
     return VN_OK;
 }
@@ -112,9 +123,10 @@ bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *s, vn_segmen
     if (grid->heads.count == 0) {
         return true;
     }
-    vn_edge_entry own = entry_of(0, s);
-    int64_t last = cell_of(grid, fmax(s->y0, s->y1));
-    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1)); j <= last; j++) {
+    vn_edge_entry own = entry_of(grid, 0, s);
+    double slack = slack_of(grid, s);
+    int64_t last = cell_of(grid, fmax(s->y0, s->y1) + slack);
+    for (int64_t j = cell_of(grid, fmin(s->y0, s->y1) - slack); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
         for (int64_t i = row.from; i <= row.to; i++) {
             int32_t next = grid->heads.data[bucket_of(grid, i, j)];
