@@ -183,6 +183,9 @@ vn_status vn_consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32
 
 // meet.c: an edge that stays clear of others, or ends in the first one that it meets.
 typedef enum vn_outcome { VN_CLEAR, VN_MET, VN_BARRED } vn_outcome;
+/// Whether a join of @p a and @p b would close a loop of a few edges, no wider than an edge is long: they are
+/// connected, twigs of one fork, or one has met the other's neighbor.
+bool vn_met_before(const vn_network *network, int32_t a, int32_t b);
 /// Whether an edge from @p node to @p p (which is node @p to, or is to be one: -1) is clear of the others. If
 /// not, and it can be, @p node is joined to what it meets.
 vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, double length,

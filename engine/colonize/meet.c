@@ -29,6 +29,29 @@ static bool are_kin(const vn_network *network, int32_t a, int32_t b) {
     return false;
 }
 
+// Whether @p a has a join with a node that is next to @p b, or next but one, in the tree.
+static bool is_joined_beside(const vn_network *network, int32_t a, int32_t b) {
+    int32_t parent = network->parent.data[b];
+    if (parent >= 0 && vn_network_connected(network, a, parent)) {
+        return true;
+    }
+    for (int32_t c = network->first_child.data[b]; c >= 0; c = network->next_child.data[c]) {
+        if (vn_network_connected(network, a, c)) {
+            return true;
+        }
+    }
+    int32_t sibling = parent >= 0 ? network->first_child.data[parent] : -1;
+    while (sibling >= 0 && !vn_network_connected(network, a, sibling)) {
+        sibling = network->next_child.data[sibling];
+    }
+    return sibling >= 0;
+}
+
+bool vn_met_before(const vn_network *network, int32_t a, int32_t b) {
+    return vn_network_connected(network, a, b) || are_kin(network, a, b) || is_joined_beside(network, a, b) ||
+           is_joined_beside(network, b, a);
+}
+
 // The vein that is met becomes the second parent of the newcomer: were it the other way round, half of what a
 // main vein feeds would count for the twig that ran into it.
 static vn_status join_to(vn_network *network, int32_t node, int32_t to, double length, vn_outcome *outcome) {
@@ -36,7 +59,7 @@ static vn_status join_to(vn_network *network, int32_t node, int32_t to, double l
     bool meets;
     vn_meeting other;
     *outcome = VN_BARRED;
-    if (node == to || vn_network_connected(network, node, to)) {
+    if (node == to || vn_met_before(network, node, to)) {
         return VN_OK;
     }
     vn_network_position(network, to, p);
@@ -58,6 +81,10 @@ static vn_status join_into(vn_network *network, int32_t node, const vn_meeting *
         d[k] = sqrt(vn_distance2(met->p, q[k]));
     }
     int nearer = d[1] < d[0];
+    *outcome = VN_BARRED;
+    if (vn_met_before(network, node, ends[0]) || vn_met_before(network, node, ends[1])) {
+        return VN_OK;
+    }
     if (met->edge >= 0 && d[nearer] >= NEAR_END * length) {
         int32_t middle;
         VN_TRY(vn_network_split(network, met->edge, met->p, &middle));
@@ -65,7 +92,8 @@ static vn_status join_into(vn_network *network, int32_t node, const vn_meeting *
         return vn_network_join(network, middle, node, 0);
     }
     VN_TRY(join_to(network, node, ends[nearer], length, outcome));
-    return *outcome == VN_BARRED ? join_to(network, node, ends[!nearer], length, outcome) : VN_OK;
+    bool other = *outcome == VN_BARRED && d[!nearer] <= length;
+    return other ? join_to(network, node, ends[!nearer], length, outcome) : VN_OK;
 }
 
 vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, double length,
@@ -81,5 +109,5 @@ vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t 
     vn_network_edge_ends(network, met.edge, &a, &b);
     *outcome = VN_BARRED;
     bool own = a == node || b == node;
-    return own || are_kin(network, node, b) ? VN_OK : join_into(network, node, &met, length, outcome);
+    return own ? VN_OK : join_into(network, node, &met, length, outcome);
 }

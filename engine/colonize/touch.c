@@ -151,20 +151,24 @@ static bool are_close(const touch *t, int32_t a, int32_t b) {
     return vn_distance2(p, q) <= most * most;
 }
 
-// The group of ends, each close to another one of it, that the first free end belongs to; into @p group.
+static bool may_join_group(const touch *t, const int32_t *group, int count, int32_t end) {
+    for (int k = 0; k < count; k++) {
+        if (!are_close(t, group[k], end) || vn_met_before(t->network, group[k], end)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The group of ends, all close to one another, that the first free end belongs to; into @p group.
 static int next_group(const touch *t, meeting_ends *ends, int32_t group[MOST_ENDS], bool *grew) {
     int count = 0;
     *grew = false;
     for (int k = 0; k < ends->count; k++) {
-        bool belongs = count == 0 && !ends->taken[k];
-        for (int j = 0; j < count && !ends->taken[k] && !belongs; j++) {
-            belongs = are_close(t, group[j], ends->node[k]);
-        }
-        if (belongs) {
+        if (!ends->taken[k] && may_join_group(t, group, count, ends->node[k])) {
             ends->taken[k] = true;
             *grew = *grew || ends->grew[k];
             group[count++] = ends->node[k];
-            k = -1; // those passed over may be close to this one
         }
     }
     return count;
