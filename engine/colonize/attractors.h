@@ -160,8 +160,9 @@ vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2);
 
 // neighbors.c: V(s), in the closed modes.
 vn_status vn_ties_prepare(vn_attractors *a);
-/// Turn all ties into ghosts: V(s) is to be found anew, and veins keep their tags.
-void vn_ties_forget(vn_attractors *a);
+/// Turn all ties into ghosts: V(s) is to be found anew, and veins keep their tags; but not how near they
+/// came, when nodes moved.
+void vn_ties_forget(vn_attractors *a, bool moved);
 void vn_ties_drop(vn_attractors *a, int32_t i);
 void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i);
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);

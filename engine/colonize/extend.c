@@ -179,11 +179,19 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
+static vn_status grow_edge(const extension *e, int32_t node, const double p[3]) {
+    vn_outcome outcome = VN_CLEAR;
+    if (e->def->meet == VN_MEET_JOIN && e->network->dim == 2) {
+        VN_TRY(vn_meet(e->network, node, p, -1, e->def->length, &outcome));
+    }
+    return outcome == VN_CLEAR ? vn_network_add(e->network, node, p, NULL) : VN_OK;
+}
+
 static vn_status step_toward(const extension *e, int32_t node, int32_t attractor) {
     double n[3], p[3];
     direction_to(e, node, attractor, n);
     step_from(e, node, n, p);
-    return vn_network_add(e->network, node, p, NULL);
+    return grow_edge(e, node, p);
 }
 
 // The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one
@@ -346,14 +354,6 @@ static vn_status check_roots(const extension *e) {
     return VN_OK;
 }
 
-static vn_status grow_edge(const extension *e, const double p[3]) {
-    vn_outcome outcome = VN_CLEAR;
-    if (e->def->meet == VN_MEET_JOIN && e->network->dim == 2) {
-        VN_TRY(vn_meet(e->network, e->node, p, -1, e->def->length, &outcome));
-    }
-    return outcome == VN_CLEAR ? vn_network_add(e->network, e->node, p, NULL) : VN_OK;
-}
-
 // In the closed modes an attractor that the border hides waits for other veins.
 static void note_hidden(const extension *e, bool inside) {
     for (const vn_keyed *pair = e->begin; !inside && pair < e->end; pair++) {
@@ -413,7 +413,7 @@ static vn_status grow_node(const extension *e) {
     bool free = has_mean && !has_child_toward(e, e->node, p);
     bool inside = !free || stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
-        VN_TRY(grow_edge(e, p));
+        VN_TRY(grow_edge(e, e->node, p));
     } else if (e->a->mode != VN_NEAREST) {
         note_hidden(e, inside);
     } else if (!inside || (e->def->domain != NULL && !has_mean)) {

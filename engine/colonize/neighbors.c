@@ -130,12 +130,13 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
     a->guards.data[i].farthest2 = farthest2;
 }
 
-void vn_ties_forget(vn_attractors *a) {
+void vn_ties_forget(vn_attractors *a, bool moved) {
     for (int32_t i = 0; i < a->first_tie.count; i++) {
         a->guards.data[i] = no_guards;
         a->stage.data[i] &= (uint8_t)~VN_OUTDATED;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
+            a->ties.data[tie].best = moved ? INFINITY : a->ties.data[tie].best;
         }
     }
     a->outdated.count = 0;
@@ -179,23 +180,24 @@ static vn_tie inherit(const vn_attractors *a, const vn_network *network, int32_t
     return made;
 }
 
-// A vein that comes nearer renews the attractor's patience.
-static void note_progress(vn_attractors *a, const vn_network *network, int32_t i, const vn_tie *tie,
-                          double d2) {
-    double s[3], q[3];
-    if ((tie->state & VN_GREW) && network->parent.data[tie->node] >= 0) {
-        place_of(a, i, s);
-        vn_network_position(network, network->parent.data[tie->node], q);
-        bool nearer = sqrt(d2) < sqrt(vn_distance2(s, q)) - 1e-3 * a->last.length;
-        a->idle.data[i] &= nearer ? (uint8_t) ~(VN_IDLE | VN_HIDDEN) : 0xFF;
+// A vein that comes nearer than it ever was renews the attractor's patience: one that goes to and fro about
+// it does not. What was tagged is minded by vn_touch().
+static void note_progress(vn_attractors *a, int32_t i, vn_tie *tie, double d2) {
+    double distance = sqrt(d2);
+    if ((tie->state & VN_TAGGED) && a->tagging) {
+        return;
     }
+    if ((tie->state & VN_GREW) && distance < (double)tie->best - 1e-3 * a->last.length) {
+        a->idle.data[i] &= (uint8_t) ~(VN_IDLE | VN_HIDDEN);
+    }
+    tie->best = fminf(tie->best, (float)distance);
 }
 
 static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, double d2) {
     bool anew;
     vn_tie made = inherit(a, network, i, node, &anew);
     if (anew) {
-        note_progress(a, network, i, &made, d2);
+        note_progress(a, i, &made, d2);
     }
     int32_t tie = take_tie(a);
     if (tie < 0) {
