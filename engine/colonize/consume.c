@@ -80,12 +80,23 @@ static void watch_waiting(vn_attractors *a, double distance2) {
     }
 }
 
+// What waited for its veins in another mode is consumed by any of them, or free again.
+static void forget_touched(vn_attractors *a) {
+    for (int32_t k = 0; k < a->touched.count; k++) {
+        a->stage.data[a->touched.data[k]] &= (uint8_t)~VN_TOUCHED;
+    }
+    a->fresh_all = a->fresh_all || a->touched.count > 0;
+    a->touched.count = 0;
+    a->tagging = false;
+}
+
 // Where an attractor draws one node alone, all of its nodes are any of them.
 static vn_status consume_by_mode(vn_attractors *a, vn_network *network, const vn_consume_def *def,
                                  int32_t *consumed) {
     if (a->mode != VN_NEAREST && def->mode != VN_CONSUME_ANY) {
         return vn_touch(a, network, def, consumed);
     }
+    forget_touched(a);
     bool all = a->fresh_all || def->distance * def->distance > a->consumed2;
     return all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
 }
