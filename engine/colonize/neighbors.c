@@ -133,7 +133,6 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
 void vn_ties_forget(vn_attractors *a, bool moved) {
     for (int32_t i = 0; i < a->first_tie.count; i++) {
         a->guards.data[i] = no_guards;
-        a->stage.data[i] &= (uint8_t)~VN_OUTDATED;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
             a->ties.data[tie].best = moved ? INFINITY : a->ties.data[tie].best;
