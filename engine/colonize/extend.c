@@ -11,10 +11,9 @@ static const vn_field extend_fields[] = {
      "D, the length of a new vein segment"},
     {"domain", VN_OBJECT, 0, offsetof(vn_extend_def, domain), 0, 0, "", "domain",
      "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
-    {"meet", VN_CHOICE, 0, offsetof(vn_extend_def, meet), 0, 0, "", "cross|join",
-     "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined "
-     "to "
-     "it (in 2D)"},
+    {"meet", VN_CHOICE, 0, offsetof(vn_extend_def, meet), 0, 0, "", "cross|join|stop",
+     "what a vein does that would cross another one: go on across it, as in the papers, end there, joined to "
+     "it, or not grow (both in 2D); what drew that vein alone is then given up"},
 };
 const vn_schema vn_extend_schema =
     VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);
@@ -179,12 +178,23 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
+static vn_status is_crossed(const extension *e, int32_t node, const double p[3], bool *crossed) {
+    vn_meeting met;
+    *crossed = false;
+    if (e->def->meet != VN_MEET_STOP || e->network->dim != 2) {
+        return VN_OK;
+    }
+    return vn_network_meets(e->network, node, p, -1, e->def->length, crossed, &met);
+}
+
 static vn_status grow_edge(const extension *e, int32_t node, const double p[3]) {
     vn_outcome outcome = VN_CLEAR;
+    bool crossed;
     if (e->def->meet == VN_MEET_JOIN && e->network->dim == 2) {
         VN_TRY(vn_meet(e->network, node, p, -1, e->def->length, &outcome));
     }
-    return outcome == VN_CLEAR ? vn_network_add(e->network, node, p, NULL) : VN_OK;
+    VN_TRY(is_crossed(e, node, p, &crossed));
+    return outcome == VN_CLEAR && !crossed ? vn_network_add(e->network, node, p, NULL) : VN_OK;
 }
 
 static vn_status step_toward(const extension *e, int32_t node, int32_t attractor) {
@@ -354,6 +364,29 @@ static vn_status check_roots(const extension *e) {
     return VN_OK;
 }
 
+static void retire_barred(const extension *e) {
+    for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
+        e->a->retired.barred++;
+        vn_attractors_remove(e->a, pair->value);
+    }
+}
+
+// Attractors on both sides of a vein draw along it or across it: one of them alone may still be reached.
+static vn_status grow_or_stop(const extension *e, double p[3]) {
+    bool crossed;
+    if (e->def->meet != VN_MEET_STOP) {
+        return grow_edge(e, e->node, p);
+    }
+    VN_TRY(is_crossed(e, e->node, p, &crossed));
+    if (crossed && step_to_one(e, p)) {
+        VN_TRY(is_crossed(e, e->node, p, &crossed));
+    }
+    if (crossed && e->a->mode == VN_NEAREST) {
+        retire_barred(e);
+    }
+    return crossed ? VN_OK : vn_network_add(e->network, e->node, p, NULL);
+}
+
 // In the closed modes an attractor that the border hides waits for other veins.
 static void note_hidden(const extension *e, bool inside) {
     for (const vn_keyed *pair = e->begin; !inside && pair < e->end; pair++) {
@@ -413,7 +446,7 @@ static vn_status grow_node(const extension *e) {
     bool free = has_mean && !has_child_toward(e, e->node, p);
     bool inside = !free || stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
-        VN_TRY(grow_edge(e, e->node, p));
+        VN_TRY(grow_or_stop(e, p));
     } else if (e->a->mode != VN_NEAREST) {
         note_hidden(e, inside);
     } else if (!inside || (e->def->domain != NULL && !has_mean)) {

@@ -35,6 +35,7 @@ typedef struct vn_retired {
     int32_t hidden;  ///< no node sees them without leaving the domain
     int32_t circled; ///< veins grew for them many times and came no nearer (segments too long for the kill
                      ///< distance)
+    int32_t barred;  ///< the vein that they drew alone would have crossed another one (VN_MEET_STOP)
 } vn_retired;
 VN_API vn_retired vn_attractors_retired(const vn_attractors *attractors);
 /// Those that wait beyond a marginal blade's margin.
@@ -90,14 +91,15 @@ VN_API int32_t vn_influence_node(const vn_influence *influence, int32_t pair);
 /// Whether neither the attractors nor the network changed since.
 VN_API bool vn_influence_current(const vn_influence *influence);
 
-enum { VN_MEET_CROSS, VN_MEET_JOIN };
+enum { VN_MEET_CROSS, VN_MEET_JOIN, VN_MEET_STOP };
 
 typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
     vn_domain *domain; ///< an edge that would leave it is not made, and new nodes are brought onto it where
                        ///< it is a surface; held by the attractors; may be NULL
     int meet; ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
-              ///< it ends there, joined to the other vein (in 2D)
+              ///< it ends there, joined to the other vein; 2 "stop": it does not grow, and attractors that
+              ///< draw no other node are retired (both in 2D)
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that

@@ -112,11 +112,13 @@ static void read_z(lua_State *L, void *object, int32_t i) {
 
 static int push_retired(lua_State *L, const vn_attractors *attractors) {
     vn_retired retired = vn_attractors_retired(attractors);
-    lua_createtable(L, 0, 2);
+    lua_createtable(L, 0, 3);
     lua_pushinteger(L, retired.hidden);
     lua_setfield(L, -2, "hidden");
     lua_pushinteger(L, retired.circled);
     lua_setfield(L, -2, "circled");
+    lua_pushinteger(L, retired.barred);
+    lua_setfield(L, -2, "barred");
     return 1;
 }
 
@@ -144,9 +146,11 @@ static int attractors_length(lua_State *L) {
     return 1;
 }
 
-static const char retired_field[] = "retired: {hidden: integer, circled: integer} | how many were given up: "
-                                    "hidden, as no node sees them without leaving "
-                                    "the domain; circled, as veins grew for them and came no nearer";
+static const char retired_field[] =
+    "retired: {hidden: integer, circled: integer, barred: integer} | how many "
+    "were given up: hidden, as no node sees them without leaving the domain; "
+    "circled, as veins grew for them and came no nearer; barred, as the vein "
+    "would have crossed another one";
 static const char *const fields[] = {"x: number[] | the attractors' coordinates",
                                      "y: number[] | the attractors' coordinates",
                                      "z: number[] | the attractors' coordinates; 0 in 2D",

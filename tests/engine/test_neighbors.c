@@ -208,11 +208,60 @@ static void golden_meeting(void **state) {
     vn_network_destroy(network);
 }
 
+static int32_t grow_among_walls(int meet, uint64_t seed, vn_retired *retired) {
+    vn_network *network = network_of(2);
+    vn_attractors *a = attractors_of(2, seed);
+    vn_influence *influence = NULL;
+    vn_rng rng = vn_rng_make(seed);
+    vn_leaf_measures measures;
+    for (int wall = 0; wall < 12; wall++) {
+        double p[3] = {4 * wall, 0, 0}, q[3] = {4 * wall, 20, 0};
+        int32_t root;
+        assert_ok(vn_network_root(network, p, &root));
+        assert_ok(vn_network_add(network, root, q, NULL));
+    }
+    for (int k = 0; k < 150; k++) {
+        double p[3] = {vn_rng_uniform(&rng, -2, 46), vn_rng_uniform(&rng, 0, 20), 0};
+        assert_ok(vn_attractors_add(a, p));
+    }
+    for (int step = 0; vn_attractors_count(a) > 0; step++) {
+        int32_t added, first, consumed;
+        assert_true(step < 2000);
+        assert_ok(vn_influence_find(&influence, a, network, &(vn_influence_def){.mode = VN_NEAREST}));
+        assert_ok(vn_extend(network, influence, &(vn_extend_def){.length = 1, .meet = meet}, &added, &first));
+        assert_ok(vn_consume(a, network, &(vn_consume_def){.distance = 0.8}, &consumed));
+    }
+    vn_leaf_def whole = vn_leaf_def_default();
+    assert_ok(vn_network_measure_leaf(network, &whole, &measures));
+    int32_t crossings = measures.crossings;
+    assert_int_equal(vn_network_join_count(network), 0);
+    *retired = vn_attractors_retired(a);
+    vn_leaf_measures_free(&measures);
+    vn_influence_destroy(influence);
+    vn_attractors_destroy(a);
+    vn_network_destroy(network);
+    return crossings;
+}
+
+// Walls of one long edge each, whose ends alone are nodes: veins from there would pass through them.
+static void a_vein_stops_before_it_crosses(void **state) {
+    (void)state;
+    vn_retired retired;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        assert_true(grow_among_walls(VN_MEET_CROSS, seed, &retired) > 0);
+        assert_int_equal(retired.barred, 0);
+        assert_int_equal(grow_among_walls(VN_MEET_STOP, seed, &retired), 0);
+        assert_true(retired.barred > 0 && retired.barred < 100);
+        assert_int_equal(retired.hidden, 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relative_neighbors_are_what_the_definition_says),
         cmocka_unit_test(golden_neighbors),
         cmocka_unit_test(golden_meeting),
+        cmocka_unit_test(a_vein_stops_before_it_crosses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -116,7 +116,7 @@ local tables = {
     given = {length = 1},
     length = {kind = "number", required = true, above = 0, max = 1e150, unit = "length", doc = "D, the length of a new vein segment"},
     domain = {kind = "domain", doc = "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
-    meet = {kind = "choice", choices = "cross|join",
+    meet = {kind = "choice", choices = "cross|join|stop",
       doc = "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to it (in 2D)"},
   },
   attractors = {
