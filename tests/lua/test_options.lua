@@ -117,7 +117,7 @@ local tables = {
     length = {kind = "number", required = true, above = 0, max = 1e150, unit = "length", doc = "D, the length of a new vein segment"},
     domain = {kind = "domain", doc = "an edge that would leave it is not made; its attractor turns to the nearest node that sees it"},
     meet = {kind = "choice", choices = "cross|join|stop",
-      doc = "what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to it (in 2D)"},
+      doc = "what a vein does that would cross another one: go on across it, as in the papers, end there, joined to it, or not grow (both in 2D); what drew that vein alone is then given up"},
   },
   attractors = {
     call = function(o) venule.attractors(o) end, optional = true,
