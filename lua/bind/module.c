@@ -198,6 +198,7 @@ int luaopen_venule(lua_State *L) {
     preload_embedded(L);
     merge_embedded(L, "venule.scenario");
     merge_embedded(L, "venule.leaf");
+    merge_embedded(L, "venule.veinlets");
     merge_embedded(L, "venule.venation");
     make_strict(L, "venule");
     return 1;

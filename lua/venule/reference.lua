@@ -18,6 +18,10 @@ local functions = {
     returns = "venule.Venation", doc =
     "Open leaf venation (Runions §3), ready to grow: `s:step()` (false when done), `s:run{progress=}`, `s.network`, "
     .. "`s.attractors`. The loop is plain Lua in lua/venule/venation.lua; copy it when an option is not enough."},
+  {name = "veinlets", owner = "venule", arguments = "options", types = {options = "venule.veinlets.Options"}, rows = "veinlets",
+    returns = "venule.Attractors", doc =
+    "Add open venation by finer sources to a network that is there: veinlets that end freely within its areoles. None crosses or joins "
+    .. "a vein, so that the areoles stay as they are. What comes back are the sources: those that are left, and why others were given up."},
 }
 
 local leaf_functions = {

@@ -18,6 +18,7 @@ local rows = {
   {"neighborhood", "nearest", choices = {"nearest", "relative", "urquhart"}, doc = "which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these"},
   {"vein_steps", nil, type = "integer", min = 1, max = 1000, doc = "vein steps to one growth step; left out: as many as keep pace with the tip"},
   {"stop", "reached", choices = {"reached", "grown"}, doc = "end when every source is reached, or as soon as the blade is grown"},
+  {"veinlets", nil, type = "table", doc = "{birth_distance=, …}, as in venule.veinlets{…}: when all is done, veinlets that end freely"},
   {"murray", nil, type = "table", doc = "{exponent=, tip_radius=}: radii by Murray's law"},
   {"unit", nil, type = "string", doc = "length unit that files carry"},
 }
@@ -54,6 +55,7 @@ end
 local function venation(given)
   local o = options.read("venation", rows, given, 2)
   o.vein_distance = o.vein_distance or o.birth_distance
+  o.veinlets = o.veinlets and options.read("venation.veinlets", venule.veinlets_options, o.veinlets, 2)
   local blade = as_growth(o.domain)
   o.vein_steps = o.vein_steps or keep_pace(blade, o.segment_length)
   if not o.birth_distance and blade.grown then
@@ -111,6 +113,7 @@ function Venation:step()
   local added = 0
   for _ = 1, o.vein_steps do added = added + self:vein_step() end
   self.done = self:is_done(growing, added, accepted)
+  if self.done and o.veinlets then self.veinlets = venule.finish_veinlets(o.veinlets, self) end
   return not self.done
 end
 
