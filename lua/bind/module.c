@@ -200,6 +200,7 @@ int luaopen_venule(lua_State *L) {
     merge_embedded(L, "venule.leaf");
     merge_embedded(L, "venule.veinlets");
     merge_embedded(L, "venule.venation");
+    merge_embedded(L, "venule.brochidodromous");
     make_strict(L, "venule");
     return 1;
 }

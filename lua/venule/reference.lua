@@ -22,6 +22,10 @@ local functions = {
     returns = "venule.Attractors", doc =
     "Add open venation by finer sources to a network that is there: veinlets that end freely within its areoles. None crosses or joins "
     .. "a vein, so that the areoles stay as they are. What comes back are the sources: those that are left, and why others were given up."},
+  {name = "brochidodromous", owner = "venule", arguments = "options", types = {options = "venule.brochidodromous.Options"},
+    rows = "brochidodromous", returns = "{network: venule.Network, arches: integer}", doc =
+    "A midvein and secondaries that are joined in arches within the margin (Ficus, Eucalyptus), as a network to go on from: "
+    .. "scripts/brochidodromous.lua fills it by venule.venation."},
 }
 
 local leaf_functions = {

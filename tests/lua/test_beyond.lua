@@ -93,3 +93,94 @@ function testMisspelledVeinlets()
   lu.assertFalse(ok)
   lu.assertStrContains(err, 'venation.veinlets: unknown field "birth_distanc", did you mean "birth_distance"?')
 end
+
+-- Brochidodromous venation
+
+local function loops_of(o)
+  local given = {domain = venule.leaf.entire {length = 400, width = 170}, rng = venule.rng(1)}
+  for key, value in pairs(o) do given[key] = value end
+  return venule.brochidodromous(given)
+end
+
+-- Which secondary a node belongs to: the height at which its way down leaves the midvein, and the side.
+local function foot_of(net, node)
+  local x, y, parent = net.x, net.y, net.parent
+  local side = x[node] > 0 and 1 or -1
+  while math.abs(x[node]) > 1e-9 do node = parent[node] end
+  return side, y[node]
+end
+
+-- Every join closes a cycle through the midvein and two secondaries; from base to tip these follow each other.
+function testConsecutiveSecondariesAreJoinedOnBothSides()
+  for _, n in ipairs {2, 7, 14} do
+    for seed = 1, 4 do
+      local s = loops_of {secondaries = n, rng = venule.rng(seed)}
+      local feet = {[1] = {}, [-1] = {}}
+      local pairs_joined = {[1] = {}, [-1] = {}}
+      for _, join in ipairs(s.network:joins()) do
+        local side, a = foot_of(s.network, join.a)
+        local other, b = foot_of(s.network, join.b)
+        lu.assertEquals(side, other)
+        feet[side][a], feet[side][b] = true, true
+        table.insert(pairs_joined[side], {math.min(a, b), math.max(a, b)})
+      end
+      for side = -1, 1, 2 do
+        local heights = {}
+        for y in pairs(feet[side]) do heights[#heights + 1] = y end
+        table.sort(heights)
+        table.sort(pairs_joined[side], function(p, q) return p[1] < q[1] end)
+        lu.assertEquals(#heights, n)
+        lu.assertEquals(#pairs_joined[side], n - 1)
+        for k, pair in ipairs(pairs_joined[side]) do lu.assertEquals(pair, {heights[k], heights[k + 1]}) end
+      end
+      lu.assertEquals(s.arches, 2 * n - 2)
+      local m = s.network:measure {leaf = true}.leaf
+      lu.assertEquals({m.areoles, m.crossings}, {2 * n - 2, 0})
+    end
+  end
+end
+
+-- Where half of the blade's width ends at a height, by its outline.
+local function width_at(y)
+  local points, most = venule.leaf.outline("entire", {length = 400, width = 170}), 0
+  for i, p in ipairs(points) do
+    local q = points[i % #points + 1]
+    if (p[2] - y) * (q[2] - y) <= 0 and p[2] ~= q[2] then
+      most = math.max(most, math.abs(p[1] + (y - p[2]) / (q[2] - p[2]) * (q[1] - p[1])))
+    end
+  end
+  return most
+end
+
+function testSecondariesDoNotReachTheMargin()
+  local net, most = loops_of {reach = 0.75}.network, 0
+  for i = 1, #net do
+    if net.y[i] < 350 then most = math.max(most, math.abs(net.x[i]) / width_at(net.y[i])) end
+  end
+  lu.assertTrue(most > 0.72 and most < 0.78, "they reach " .. most)
+end
+
+-- Finer veins leave the arches as they are.
+function testArchesStayWhenTheRestIsFilled()
+  local s = loops_of {secondaries = 5}
+  local joins = s.network:joins()
+  venule.venation {
+    domain = s.options.domain, network = s.network, rng = venule.rng(2), neighborhood = "relative", birth_distance = 12, darts = 0.002,
+  }:run()
+  for i, join in ipairs(joins) do
+    lu.assertEquals(s.network:joins()[i].a, join.a)
+    lu.assertEquals(s.network:joins()[i].b, join.b)
+  end
+  local m = s.network:measure {leaf = true}.leaf
+  lu.assertTrue(m.areoles > 60)
+  lu.assertEquals(m.crossings, 0)
+end
+
+function testTooManySecondariesAreSaid()
+  local notes, note = {}, venule.note
+  venule.note = function(text) notes[#notes + 1] = text end
+  local ok, s = pcall(loops_of, {secondaries = 200})
+  venule.note = note
+  lu.assertTrue(ok, s)
+  lu.assertStrMatches(notes[1], "brochidodromous: %d+ of 398 pairs of secondaries are joined: too many for segments as long as these")
+end
