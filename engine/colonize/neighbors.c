@@ -231,7 +231,9 @@ static bool is_in_lune(int32_t node, const vn_lune *lune, void *payload) {
 
 static void set_lune(vn_lune *lune, const double s[3], const double v[3]) {
     double d = sqrt(vn_distance2(s, v)) * (1 + 1e-9);
+    lune->least = -INFINITY;
     for (int k = 0; k < 3; k++) {
+        lune->normal[k] = 0;
         lune->s[k] = s[k];
         lune->v[k] = v[k];
         lune->low[k] = fmax(s[k], v[k]) - d;
@@ -252,7 +254,10 @@ static void narrow_lune(vn_lune *lune, const double p[3]) {
         return;
     }
     double radius = sqrt(fmax(d2 - along * along, 0)) + 1e-6 * sqrt(d2);
+    lune->least = -1e-6 * sqrt(d2);
     for (int k = 0; k < 3; k++) {
+        lune->normal[k] = (lune->v[k] - p[k]) / step;
+        lune->least += lune->normal[k] * lune->s[k];
         double center = lune->v[k] + along * (lune->v[k] - p[k]) / step;
         lune->low[k] = fmax(lune->low[k], center - radius);
         lune->high[k] = fmin(lune->high[k], center + radius);

@@ -166,6 +166,14 @@ static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
     return false;
 }
 
+static double farthest_along(const place *at, int dim, const double normal[3]) {
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        sum += normal[k] * (normal[k] > 0 ? at->low[k] + at->size : at->low[k]);
+    }
+    return sum;
+}
+
 static bool overlaps(const lune_query *q, const place *at) {
     int dim = q->tree->dim;
     for (int k = 0; k < dim; k++) {
@@ -173,7 +181,17 @@ static bool overlaps(const lune_query *q, const place *at) {
             return false;
         }
     }
-    return distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
+    return farthest_along(at, dim, q->lune->normal) >= q->lune->least &&
+           distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
+}
+
+// The child nearest to the middle of the lune, where it is widest: what is found there ends the search.
+static int child_amid(const lune_query *q, const place *at) {
+    int which = 0;
+    for (int k = 0; k < q->tree->dim; k++) {
+        which |= q->lune->s[k] + q->lune->v[k] >= 2 * at->low[k] + at->size ? 1 << k : 0;
+    }
+    return which;
 }
 
 // NOLINTNEXTLINE(misc-no-recursion): no deeper than DEEPEST below the root, and that by doubling alone
@@ -183,7 +201,9 @@ static bool any_below(const lune_query *q, int32_t cell, const place *at) {
     if (here->children < 0) {
         return any_in_leaf(q, here);
     }
-    for (int c = 0; c < 1 << dim; c++) {
+    int first = child_amid(q, at);
+    for (int k = 0; k < 1 << dim; k++) {
+        int c = k ^ first;
         const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
         bool empty = child->children < 0 && child->count == 0;
         place below = child_place(at, dim, c);

@@ -26,7 +26,8 @@ vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *po
 /// The lune of two points: what is nearer to `s` than `v` is, and no farther from `v` than `s` is.
 typedef struct vn_lune {
     double s[3], v[3];
-    double low[3], high[3]; ///< only this box of it is looked at
+    double low[3], high[3];  ///< only this box of it is looked at,
+    double normal[3], least; ///< and of that only what is at least this far along the normal
 } vn_lune;
 
 /// Whether a point of the tree may be in the lune; called only for points that are, to rounding.
