@@ -36,7 +36,7 @@ local function with_lobe()
   for i, p in ipairs(lobe) do
     lobe[i] = {p[1] * math.cos(turn) - p[2] * math.sin(turn), p[1] * math.sin(turn) + p[2] * math.cos(turn)}
   end
-  return leaf.toothed {width = 0.5} + venule.domain.polygon(lobe)
+  return leaf.toothed {width = 0.5, teeth = {{28, 0.009, 0.6}}} + venule.domain.polygon(lobe)
 end
 
 local ovate = leaf.entire {width = 0.8, widest = 0.32, tip = "acute"}
