@@ -167,6 +167,7 @@ function venule.result(options) end
 ---@field neighborhood? "nearest"|"relative"|"urquhart" # which nodes a source draws: the nearest one (open venation), its relative neighbors (closed venation), or the Urquhart approximation of these
 ---@field vein_steps? integer # vein steps to one growth step; left out: as many as keep pace with the tip
 ---@field stop? "reached"|"grown" # end when every source is reached, or as soon as the blade is grown
+---@field veinlets? table # {birth_distance=, …}, as in venule.veinlets{…}: when all is done, veinlets that end freely
 ---@field murray? table # {exponent=, tip_radius=}: radii by Murray's law
 ---@field unit? string # length unit that files carry
 
@@ -174,6 +175,36 @@ function venule.result(options) end
 ---@param options venule.venation.Options
 ---@return venule.Venation
 function venule.venation(options) end
+
+---@class (exact) venule.veinlets.Options
+---@field network any # the veins that are there; veinlets are added to them
+---@field domain any # the blade, as it is now
+---@field rng any # the random numbers: venule.rng(seed)
+---@field birth_distance number # how far the veinlets' sources keep from each other: smaller means more veinlets to an areole
+---@field vein_distance? number # and from veins: an areole narrower than twice that gets none; left out: half of birth_distance
+---@field kill_distance? number # a veinlet ends this far from its source; left out: segment_length
+---@field segment_length? number # D of the veinlets; left out: a quarter of birth_distance
+---@field darts? number # how many sources are tried by area, five times; left out: 20 by birth_distance²
+
+---Add open venation by finer sources to a network that is there: veinlets that end freely within its areoles. None crosses or joins a vein, so that the areoles stay as they are. What comes back are the sources: those that are left, and why others were given up.
+---@param options venule.veinlets.Options
+---@return venule.Attractors
+function venule.veinlets(options) end
+
+---@class (exact) venule.brochidodromous.Options
+---@field domain any # the blade: its petiole at `root`, its tip above that
+---@field rng any # the random numbers: venule.rng(seed)
+---@field root? table # where the midvein starts: {x, y}
+---@field secondaries? integer # at each side
+---@field rise? number # how far the longest ones climb toward the tip, of the blade's length
+---@field reach? number # how near the margin arches come, of the way from the midvein
+---@field irregularity? number # of the places of secondaries, in shares of the gap between them
+---@field segment_length? number # D: the length a vein gains in a step
+
+---A midvein and secondaries that are joined in arches within the margin (Ficus, Eucalyptus), as a network to go on from: scripts/brochidodromous.lua fills it by venule.venation.
+---@param options venule.brochidodromous.Options
+---@return {network: venule.Network, arches: integer}
+function venule.brochidodromous(options) end
 
 ---@class (exact) venule.leaf.entire.Options
 ---@field length? number # from the petiole to the tip
@@ -619,7 +650,7 @@ function Network:murray(options) end
 ---@class (exact) venule.extend.Options
 ---@field length number # D, the length of a new vein segment, length
 ---@field domain? venule.Domain|venule.Growth # an edge that would leave it is not made; its attractor turns to the nearest node that sees it
----@field meet? "cross"|"join" # what a vein does that would cross another one: go on across it, as in the papers, or end there, joined to it (in 2D) (default "cross")
+---@field meet? "cross"|"join"|"stop" # what a vein does that would cross another one: go on across it, as in the papers, end there, joined to it, or not grow (both in 2D); what drew that vein alone is then given up (default "cross")
 
 ---Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.
 ---@param influence venule.Influence
@@ -669,7 +700,7 @@ function Network:save(path) end
 ---@field z number[] # the attractors' coordinates; 0 in 2D
 ---@field dim integer # 2 or 3
 ---@field dormant integer # how many wait beyond a growing margin
----@field retired {hidden: integer, circled: integer} # how many were given up: hidden, as no node sees them without leaving the domain; circled, as veins grew for them and came no nearer
+---@field retired {hidden: integer, circled: integer, barred: integer} # how many were given up: hidden, as no node sees them without leaving the domain; circled, as veins grew for them and came no nearer; barred, as the vein would have crossed another one
 local Attractors = {}
 
 ---Add one.
