@@ -439,11 +439,22 @@ static void remember_extension(vn_attractors *a, const vn_extend_def *def) {
     a->last.domain = held;
 }
 
+// Whether some attractor is so far off that a step does not lead past it. Where each draws several veins, two
+// nodes on either side of one would take turns to grow where the other is, and be twice as many each time.
+static bool leads_somewhere(const extension *e) {
+    double n[3];
+    bool leads = e->a->mode == VN_NEAREST;
+    for (const vn_keyed *pair = e->begin; !leads && pair < e->end; pair++) {
+        leads = e->def->length < 2 * direction_to(e, e->node, pair->value, n);
+    }
+    return leads;
+}
+
 static vn_status grow_node(const extension *e) {
     double n[3], p[3];
     bool has_mean = mean_direction(e, n);
     step_from(e, e->node, n, p);
-    bool free = has_mean && !has_child_toward(e, e->node, p);
+    bool free = has_mean && leads_somewhere(e) && !has_child_toward(e, e->node, p);
     bool inside = !free || stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
         VN_TRY(grow_or_stop(e, p));
