@@ -104,11 +104,17 @@ static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
     return VN_OK;
 }
 
+// A power of two, at a multiple of it: then no box's corner is ever rounded, whatever the points' scale.
 static vn_status plant(vn_point_tree *tree, int dim, const vn_points *points, int32_t count) {
     double high[3];
     tree->dim = dim;
-    tree->size = vn_points_extent(points, 0, count, tree->low, high);
-    tree->size = tree->size > 0 ? 1.001 * tree->size : 1;
+    double size = vn_points_extent(points, 0, count, tree->low, high);
+    int exponent;
+    frexp(size > 0 ? size : 1, &exponent);
+    tree->size = ldexp(1, exponent);
+    for (int k = 0; k < 3; k++) {
+        tree->low[k] = floor(tree->low[k] / tree->size) * tree->size;
+    }
     return vn_array_push(&tree->cells, empty_cell);
 }
 
