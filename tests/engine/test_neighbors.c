@@ -88,7 +88,8 @@ static void add_node(vn_network *network, const double p[3], vn_rng *rng) {
 }
 
 // The source comes first, last or half way; nodes come one at a time or in batches.
-static void check_scene(scene *s, vn_rng *rng) {
+typedef void check_fn(const scene *s, const bool seen[MOST]);
+static void check_scene(scene *s, vn_rng *rng, int mode, check_fn *check) {
     bool seen[MOST];
     int all = s->nodes, early = (int)vn_rng_uniform(rng, 0, all + 1);
     vn_network *network = nodes_of(s, early);
@@ -97,8 +98,8 @@ static void check_scene(scene *s, vn_rng *rng) {
     assert_ok(vn_attractors_add(a, s->source));
     for (int count = early; count <= all;) {
         s->nodes = count;
-        found(&influence, a, network, VN_RELATIVE, seen);
-        assert_relative(s, seen);
+        found(&influence, a, network, mode, seen);
+        check(s, seen);
         int next = count + 1 + (int)vn_rng_uniform(rng, 0, 40);
         next = next > all && count < all ? all : next;
         for (int i = count; i < next && i < all; i++) {
@@ -127,7 +128,204 @@ static void relative_neighbors_are_what_the_definition_says(void **state) {
             s.source[k] = s.node[0][k]; // on a node
         }
         s.source[0] -= seed % 13 == 0 ? 1000 : 0; // outside the hull
-        check_scene(&s, &rng);
+        check_scene(&s, &rng, VN_RELATIVE, assert_relative);
+    }
+}
+
+// --- Urquhart neighbors -----------------------------------------------------------------------------------
+
+/// Whole numbers about the source: x, y, z and the squared distance from it.
+typedef struct lifted {
+    int64_t v[4];
+} lifted;
+
+static lifted lift(const scene *s, int node) {
+    lifted l = {{0}};
+    for (int k = 0; k < 3; k++) {
+        l.v[k] = (int64_t)(s->node[node][k] - s->source[k]);
+        l.v[3] += l.v[k] * l.v[k];
+    }
+    return l;
+}
+
+static int64_t det2(const lifted *a, const lifted *b, int i, int j) {
+    return a->v[i] * b->v[j] - a->v[j] * b->v[i];
+}
+
+static int64_t det3(const lifted *a, const lifted *b, const lifted *c, int i, int j, int k) {
+    return a->v[i] * det2(b, c, j, k) - a->v[j] * det2(b, c, i, k) + a->v[k] * det2(b, c, i, j);
+}
+
+static int64_t det4(const lifted *a, const lifted *b, const lifted *c, const lifted *d) {
+    return -a->v[3] * det3(b, c, d, 0, 1, 2) + b->v[3] * det3(a, c, d, 0, 1, 2) -
+           c->v[3] * det3(a, b, d, 0, 1, 2) + d->v[3] * det3(a, b, c, 0, 1, 2);
+}
+
+// The power of p to the circle (sphere) through the source and corners; negative inside. *flat: there is
+// none.
+static int64_t power(const lifted corner[], int dim, const lifted *p, bool *flat) {
+    int64_t turn =
+        dim == 2 ? det2(&corner[0], &corner[1], 0, 1) : det3(&corner[0], &corner[1], &corner[2], 0, 1, 2);
+    int64_t value =
+        dim == 2 ? det3(&corner[0], &corner[1], p, 0, 1, 3) : det4(&corner[0], &corner[1], &corner[2], p);
+    *flat = turn == 0;
+    return turn > 0 ? value : -value;
+}
+
+static bool is_empty(const scene *s, const lifted *all, const lifted corner[], const int index[], bool *tie) {
+    for (int p = 0; p < s->nodes; p++) {
+        bool flat, is_corner = p == index[0] || p == index[1] || (s->dim == 3 && p == index[2]);
+        int64_t value = power(corner, s->dim, &all[p], &flat);
+        *tie = *tie || flat || (value == 0 && !is_corner);
+        if (flat || (value < 0 && !is_corner)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The source's triangles (tetrahedra), by brute force.
+typedef struct cells_around {
+    bool near[MOST];    ///< Delaunay neighbors
+    bool longest[MOST]; ///< and the edge to them is the longest of some triangle: what the rule of 1980 drops
+    bool degenerate;
+} cells_around;
+
+static void note_cell(const scene *s, cells_around *star, const int index[]) {
+    for (int i = 0; i < s->dim; i++) {
+        double d = squared(s->node[index[i]], s->source);
+        star->near[index[i]] = true;
+        for (int j = 0; j < s->dim; j++) {
+            star->longest[index[i]] |= j != i && squared(s->node[index[j]], s->source) < d &&
+                                       squared(s->node[index[j]], s->node[index[i]]) <= d;
+        }
+    }
+}
+
+static cells_around star_of(const scene *s) {
+    cells_around star = {.degenerate = s->nodes <= s->dim};
+    lifted all[MOST];
+    for (int i = 0; i < s->nodes; i++) {
+        all[i] = lift(s, i);
+    }
+    for (int i = 0; i < s->nodes; i++) {
+        for (int j = 0; j < i; j++) {
+            for (int k = 0; k < (s->dim == 3 ? j : 1); k++) {
+                int index[3] = {i, j, k};
+                lifted corner[3] = {all[i], all[j], all[k]};
+                if (is_empty(s, all, corner, index, &star.degenerate)) {
+                    note_cell(s, &star, index);
+                }
+            }
+        }
+    }
+    return star;
+}
+
+static bool is_kept_among(const scene *s, const bool among[MOST], int v) {
+    double d = squared(s->node[v], s->source);
+    for (int u = 0; u < s->nodes; u++) {
+        if (u != v && among[u] && squared(s->node[u], s->source) < d &&
+            squared(s->node[u], s->node[v]) <= d) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static int general_scenes, wider_scenes;
+
+// READINGS R5: R4 among the Delaunay neighbors; and what lies between what.
+static void assert_urquhart(const scene *s, const bool seen[MOST]) {
+    cells_around star = star_of(s);
+    if (star.degenerate) {
+        return;
+    }
+    general_scenes++;
+    bool wider = false;
+    for (int v = 0; v < s->nodes; v++) {
+        assert_int_equal(seen[v], star.near[v] && is_kept_among(s, star.near, v));
+        assert_true(seen[v] || !is_relative_neighbor(s, v));
+        assert_true(!seen[v] || !star.longest[v]);
+        wider = wider || (seen[v] && !is_relative_neighbor(s, v));
+    }
+    wider_scenes += wider;
+}
+
+static void urquhart_neighbors_are_what_the_definition_says(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 4000; seed++) {
+        vn_rng rng = vn_rng_make(seed);
+        scene s = {.dim = seed % 4 == 3 ? 3 : 2};
+        int64_t size = s.dim == 2 ? 8000 : 500;
+        s.nodes = (int)vn_rng_integer(&rng, 3, s.dim == 2 ? 36 : 16);
+        for (int i = 0; i <= s.nodes; i++) {
+            double *p = i < s.nodes ? s.node[i] : s.source;
+            for (int k = 0; k < s.dim; k++) {
+                p[k] = (double)vn_rng_integer(&rng, 0, size - 1);
+            }
+        }
+        s.source[1] -= seed % 13 == 0 && s.dim == 2 ? 6000 : 0; // outside the hull
+        check_scene(&s, &rng, VN_URQUHART, assert_urquhart);
+    }
+    assert_true(general_scenes > 2000);
+    assert_true(wider_scenes > 20);
+}
+
+// What moved is looked at anew.
+static void neighbors_are_found_again_after_a_scaling(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 200; seed++) {
+        vn_rng rng = vn_rng_make(seed);
+        scene s = {.dim = 2, .nodes = 30, .source = {3001, 2999}};
+        int mode = seed % 2 == 0 ? VN_RELATIVE : VN_URQUHART;
+        bool seen[MOST];
+        for (int i = 0; i < s.nodes; i++) {
+            for (int k = 0; k < 2; k++) {
+                s.node[i][k] = (double)vn_rng_integer(&rng, 0, 4000);
+            }
+        }
+        vn_network *network = nodes_of(&s, s.nodes);
+        vn_attractors *a = attractors_of(s.dim, 0);
+        vn_influence *influence = NULL;
+        assert_ok(vn_attractors_add(a, s.source));
+        found(&influence, a, network, mode, seen);
+        assert_ok(vn_network_scale(network, 2));
+        for (int i = 0; i < s.nodes; i++) {
+            s.node[i][0] *= 2;
+            s.node[i][1] *= 2;
+        }
+        found(&influence, a, network, mode, seen);
+        (mode == VN_RELATIVE ? assert_relative : assert_urquhart)(&s, seen);
+        vn_influence_destroy(influence);
+        vn_attractors_destroy(a);
+        vn_network_destroy(network);
+    }
+}
+
+// The first node, and all that are on one line, have no triangles; a source may be on one of them.
+static void urquhart_neighbors_without_triangles(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        for (int nodes = 1; nodes <= 6; nodes++) {
+            scene s = {.dim = dim, .nodes = nodes, .source = {4, 4}};
+            bool seen[MOST];
+            for (int i = 0; i < nodes; i++) {
+                s.node[i][0] = s.node[i][1] = 2 * (i + 1);
+            }
+            for (int aside = 0; aside < 2; aside++) {
+                s.source[0] += aside;
+                vn_network *network = nodes_of(&s, nodes);
+                vn_attractors *a = attractors_of(dim, 0);
+                vn_influence *influence = NULL;
+                assert_ok(vn_attractors_add(a, s.source));
+                found(&influence, a, network, VN_URQUHART, seen);
+                assert_relative(&s, seen);
+                vn_influence_destroy(influence);
+                vn_attractors_destroy(a);
+                vn_network_destroy(network);
+            }
+        }
     }
 }
 
@@ -259,6 +457,9 @@ static void a_vein_stops_before_it_crosses(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relative_neighbors_are_what_the_definition_says),
+        cmocka_unit_test(urquhart_neighbors_are_what_the_definition_says),
+        cmocka_unit_test(urquhart_neighbors_without_triangles),
+        cmocka_unit_test(neighbors_are_found_again_after_a_scaling),
         cmocka_unit_test(golden_neighbors),
         cmocka_unit_test(golden_meeting),
         cmocka_unit_test(a_vein_stops_before_it_crosses),
