@@ -85,6 +85,7 @@ struct vn_attractors {
     VN_ARRAY(uint8_t) stage;
     VN_ARRAY(vn_guards) guards;
     VN_ARRAY(vn_tie) ties;      ///< of all attractors, in lists
+    uint64_t ties_serial;       ///< the network that they belong to
     int32_t free_tie;           ///< the first of those not in use, or -1
     VN_ARRAY(int32_t) touched;  ///< attractors that were reached and wait for other veins
     vn_keyed_array news;        ///< the attractors that new nodes may matter to, and these nodes
@@ -163,6 +164,8 @@ vn_status vn_ties_prepare(vn_attractors *a);
 /// Turn all ties into ghosts: V(s) is to be found anew, and veins keep their tags; but not how near they
 /// came, when nodes moved.
 void vn_ties_forget(vn_attractors *a, bool moved);
+/// Drop all ties, and what waited for them: those of another network say nothing of this one's nodes.
+void vn_ties_leave(vn_attractors *a);
 void vn_ties_drop(vn_attractors *a, int32_t i);
 void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i);
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);

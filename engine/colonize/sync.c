@@ -8,6 +8,10 @@
 static void forget(vn_attractors *a, const vn_network *network, int mode, double reach2) {
     bool moved = a->network_serial == network->serial && a->network_moved != network->moved;
     vn_ties_forget(a, moved);
+    if (a->ties_serial != network->serial) {
+        vn_ties_leave(a);
+        a->ties_serial = network->serial;
+    }
     a->mode = mode;
     for (int32_t i = 0; i < a->x.count; i++) {
         if (!vn_is_gone(a, i)) {

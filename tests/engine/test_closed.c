@@ -657,6 +657,41 @@ static void two_sets_share_a_network(void **state) {
     }
 }
 
+// Sources that go on to another network draw there what new ones draw, whatever waited on the first.
+static void sources_that_change_networks_start_anew(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 100; seed++) {
+        trial t = trial_of(seed), u = trial_of(seed + 1000);
+        t.influence = VN_RELATIVE;
+        t.early = t.sources;
+        begin(&t);
+        for (int k = 0; k < 12; k++) {
+            assert_ok(step(&t));
+        }
+        begin(&u);
+        run(&u);
+        vn_attractors *fresh = attractors_of(2, (int64_t)t.seed);
+        for (int32_t i = 0; i < vn_attractors_count(t.alive); i++) {
+            double p[3];
+            assert_ok(vn_attractors_position(t.alive, i, p));
+            assert_ok(vn_attractors_add(fresh, p));
+        }
+        vn_influence_def find = {.mode = t.influence};
+        vn_influence *expected = NULL;
+        assert_ok(vn_influence_find(&t.found, t.alive, u.network, &find));
+        assert_ok(vn_influence_find(&expected, fresh, u.network, &find));
+        assert_int_equal(vn_influence_count(t.found), vn_influence_count(expected));
+        for (int32_t k = 0; k < vn_influence_count(expected); k++) {
+            assert_int_equal(vn_influence_attractor(t.found, k), vn_influence_attractor(expected, k));
+            assert_int_equal(vn_influence_node(t.found, k), vn_influence_node(expected, k));
+        }
+        vn_influence_destroy(expected);
+        vn_attractors_destroy(fresh);
+        end(&u);
+        end(&t);
+    }
+}
+
 // Memory runs out once, at every allocation in turn; then the run goes on to its end.
 static void a_refused_allocation_spoils_nothing(void **state) {
     (void)state;
@@ -691,6 +726,7 @@ int main(void) {
         counted_test(the_same_run_gives_the_same_bytes),
         counted_test(a_network_whose_parents_come_late_goes_on),
         counted_test(two_sets_share_a_network),
+        counted_test(sources_that_change_networks_start_anew),
         counted_test(a_refused_allocation_spoils_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
