@@ -47,7 +47,19 @@ static bool collect(int32_t point, const vn_lune *lune, void *payload) {
     return false;
 }
 
-// Every point in the lune must be shown, unless it is told to be cleared; and no point clearly outside.
+static bool is_wanted(const vn_lune *lune, const double p[3]) {
+    double along = 0;
+    for (int k = 0; k < 3; k++) {
+        if (p[k] < lune->low[k] || p[k] > lune->high[k]) {
+            return false;
+        }
+        along += lune->normal[k] * p[k];
+    }
+    return along >= lune->least;
+}
+
+// Every point must be shown that is in the part of the lune that is asked for; and none clearly outside of
+// it.
 static void check_lune(const cloud *c, const vn_point_tree *tree, const vn_lune *lune) {
     collection found = {0};
     vn_points points = points_of(c);
@@ -56,15 +68,28 @@ static void check_lune(const cloud *c, const vn_point_tree *tree, const vn_lune 
     for (int i = 0; i < c->count; i++) {
         double to_s = vn_points_distance2(&points, i, lune->s),
                to_v = vn_points_distance2(&points, i, lune->v);
-        double to_cleared = vn_points_distance2(&points, i, lune->cleared);
-        bool excused = i < lune->before && to_cleared <= lune->cleared_radius2 * (1 + 1e-9);
-        if (to_s < width2 && to_v <= width2 && !excused) {
+        double p[3];
+        vn_points_get(&points, i, p);
+        if (to_s < width2 && to_v <= width2 && is_wanted(lune, p)) {
             assert_true(found.seen[i]);
         }
         if (fmax(to_s, to_v) > width2 * (1 + 1e-6)) {
             assert_false(found.seen[i]);
         }
     }
+}
+
+// All of the lune, a box of it, what lies beyond a plane, or both.
+static void ask_for_part(vn_lune *lune, vn_rng *rng, int kind) {
+    double d = sqrt(vn_distance2(lune->s, lune->v)), along = 0;
+    for (int k = 0; k < 3; k++) {
+        double middle = uniform(rng, 0, 1) < 0.5 ? lune->s[k] : lune->v[k];
+        lune->low[k] = kind & 1 ? middle - uniform(rng, 0, d) : -INFINITY;
+        lune->high[k] = kind & 1 ? middle + uniform(rng, 0, d) : INFINITY;
+        lune->normal[k] = kind & 2 ? uniform(rng, -1, 1) : 0;
+        along += lune->normal[k] * middle;
+    }
+    lune->least = kind & 2 ? along : -INFINITY;
 }
 
 static void the_tree_shows_what_is_in_a_lune(void **state) {
@@ -79,14 +104,10 @@ static void the_tree_shows_what_is_in_a_lune(void **state) {
         }
         assert_ok(vn_point_tree_update(&tree, c.dim, &points, c.count));
         for (int k = 0; k < 20; k++) {
-            vn_lune lune = {.cleared_radius2 = -1};
+            vn_lune lune;
             vn_points_get(&points, (int32_t)whole(&rng, 0, c.count - 1), lune.s);
             vn_points_get(&points, (int32_t)whole(&rng, 0, c.count - 1), lune.v);
-            vn_points_get(&points, (int32_t)whole(&rng, 0, c.count - 1), lune.cleared);
-            if (k % 2 == 0) {
-                lune.before = (int32_t)whole(&rng, 0, c.count);
-                lune.cleared_radius2 = uniform(&rng, 0, 1.5) * vn_distance2(lune.s, lune.v);
-            }
+            ask_for_part(&lune, &rng, k % 4);
             check_lune(&c, &tree, &lune);
         }
         vn_point_tree_free(&tree);
