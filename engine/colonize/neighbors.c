@@ -179,6 +179,9 @@ static vn_tie inherit(const vn_attractors *a, const vn_network *network, int32_t
     vn_tie made = {.node = node, .best = INFINITY};
     *anew = true;
     int32_t parent = network->parent.data[node];
+    while (parent > node) { // put into the edge since by a vein that met it: the node grew from the one above
+        parent = network->parent.data[parent];
+    }
     for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
         const vn_tie *other = &a->ties.data[tie];
         if (other->node == node || other->node == parent) {
