@@ -150,14 +150,6 @@ void vn_ties_leave(vn_attractors *a) {
     a->touched.count = 0;
 }
 
-void vn_ties_leave(vn_attractors *a) {
-    for (int32_t i = 0; i < a->first_tie.count; i++) {
-        vn_ties_drop(a, i);
-        a->stage.data[i] = VN_FREE;
-    }
-    a->touched.count = 0;
-}
-
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
     if (from < a->first_tie.count) {
         int32_t first = a->first_tie.data[from];
