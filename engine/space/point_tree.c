@@ -255,7 +255,7 @@ typedef struct around_query {
     vn_found_array *found;
 } around_query;
 
-enum { BLOCKERS = 12 }; // as many of the nearest are asked whether they hide a box
+enum { BLOCKERS = 64 }; // as many of the nearest are asked whether they hide a box; seldom are there more
 
 // What is certain, whatever doubles do to the last bits.
 static const double SURE = 1 - 1e-12;
@@ -293,6 +293,17 @@ static bool comes_before(const vn_found *a, const vn_found *b) {
     return a->distance2 < b->distance2 || (a->distance2 == b->distance2 && a->point < b->point);
 }
 
+// What is left is so few that all of it can be asked whether it hides a box: where the nearest dozen of a
+// longer list were on one side, looks went on for a hundred thousand points on the other.
+static void drop_hidden(vn_found_array *found, const vn_found *by) {
+    int32_t kept = 0;
+    for (int32_t k = 0; k < found->count; k++) {
+        found->data[kept] = found->data[k];
+        kept += !hides_point(by, &found->data[k]);
+    }
+    found->count = kept;
+}
+
 static vn_status find_point(const around_query *q, int32_t point) {
     vn_found_array *found = q->found;
     vn_found one = {.point = point};
@@ -310,6 +321,7 @@ static vn_status find_point(const around_query *q, int32_t point) {
             return VN_OK;
         }
     }
+    drop_hidden(found, &one);
     VN_TRY(vn_array_push(found, one));
     int32_t at = found->count - 1;
     for (; at > 0 && comes_before(&one, &found->data[at - 1]); at--) {
