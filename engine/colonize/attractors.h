@@ -41,7 +41,8 @@ enum {
 /// found in its lunes.
 enum { VN_GUARDS = 4 };
 typedef struct vn_guards {
-    double farthest2; ///< no neighbor is farther
+    double farthest2;                              ///< no neighbor is farther
+    double at[VN_GUARDS][3], distance2[VN_GUARDS]; ///< where they are, and how far from the attractor
     int32_t node[VN_GUARDS];
     int32_t turn; ///< which of them gives way next
 } vn_guards;
@@ -172,8 +173,7 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);
 /// Find V(s) of attractor @p i among all nodes.
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
 /// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
-bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
-                      double d2);
+bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2);
 /// Whether the nodes from @p begin on are where new ones were expected to be.
 bool vn_ties_have_room(const vn_attractors *a, const vn_network *network, int32_t begin);
 /// Look at the new nodes in `news`.

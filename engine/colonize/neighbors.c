@@ -73,19 +73,13 @@ vn_status vn_ties_prepare(vn_attractors *a) {
 // A guard is certain, whatever doubles do to the last bits; what they cannot tell is decided by push_in().
 static const double SURE = 1 - 1e-12;
 
-bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t i, const double u[3],
-                      double d2) {
+bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2) {
     const vn_guards *guards = &a->guards.data[i];
-    vn_points points = vn_attractors_points(a);
-    vn_points nodes = vn_network_points(network);
     if (a->mode != VN_RELATIVE || d2 <= guards->farthest2) {
         return false; // it might drive a neighbor out
     }
     for (int k = 0; k < VN_GUARDS && guards->node[k] >= 0; k++) {
-        int32_t w = guards->node[k];
-        double q[3];
-        vn_points_get(&nodes, w, q);
-        if (vn_distance2(q, u) < SURE * d2 && vn_points_distance2(&points, i, q) < SURE * d2) {
+        if (vn_distance2(guards->at[k], u) < SURE * d2 && guards->distance2[k] < SURE * d2) {
             return true;
         }
     }
@@ -93,13 +87,13 @@ bool vn_ties_keep_out(const vn_attractors *a, const vn_network *network, int32_t
 }
 
 // The first guard is the nearest neighbor, the others take turns.
-static void post_guard(vn_guards *guards, int32_t node, bool nearest) {
-    if (nearest) {
-        guards->node[0] = node;
-    } else {
-        guards->turn = guards->turn % (VN_GUARDS - 1) + 1;
-        guards->node[guards->turn] = node;
-    }
+static void post_guard(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, bool nearest) {
+    vn_guards *guards = &a->guards.data[i];
+    guards->turn = nearest ? guards->turn : guards->turn % (VN_GUARDS - 1) + 1;
+    int post = nearest ? 0 : guards->turn;
+    guards->node[post] = node;
+    guards->distance2[post] = distance2_of(a, network, i, node);
+    vn_network_position(network, node, guards->at[post]);
 }
 
 void vn_ties_drop(vn_attractors *a, int32_t i) {
@@ -217,7 +211,7 @@ static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i,
         VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
     }
     vn_guards *guards = &a->guards.data[i];
-    post_guard(guards, node, guards->node[0] < 0 || d2 < distance2_of(a, network, i, guards->node[0]));
+    post_guard(a, network, i, node, guards->node[0] < 0 || d2 < guards->distance2[0]);
     guards->farthest2 = fmax(guards->farthest2, d2);
     made.next = a->first_tie.data[i];
     a->ties.data[tie] = made;
@@ -518,7 +512,7 @@ static vn_status welcome(vn_attractors *a, const vn_network *network, int32_t i,
     }
     int32_t between = find_in_lune(network, &lune);
     if (between >= 0) {
-        post_guard(&a->guards.data[i], between, false);
+        post_guard(a, network, i, between, false);
         return VN_OK;
     }
     return is_tie(a, i, node) ? VN_OK : add_tie(a, network, i, node, vn_distance2(s, u));

@@ -93,7 +93,7 @@ static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t 
     for (int32_t h = 0; h < a->hits.count; h++) {
         vn_reach_hit hit = a->hits.data[h];
         if (hit.point >= seen ||
-            (a->mode != VN_NEAREST && vn_ties_keep_out(a, network, hit.point, p, hit.distance2))) {
+            (a->mode != VN_NEAREST && vn_ties_keep_out(a, hit.point, p, hit.distance2))) {
             continue;
         }
         VN_TRY(a->mode == VN_NEAREST ? show(a, network, hit.point, node, hit.distance2)
