@@ -329,6 +329,133 @@ static void urquhart_neighbors_without_triangles(void **state) {
     }
 }
 
+/// Veins in a box that extend() knows: sources that come later count on new nodes being inside.
+typedef struct walled {
+    vn_domain *box;
+    vn_network *network;
+    vn_attractors *sources;
+    vn_influence *influence;
+    vn_rng rng;
+} walled;
+
+enum { WALL = 100 };
+
+static bool excludes_exactly(const double u[3], const double v[3], const double s[3]) {
+    return vn_compare_distances(s, u, v) < 0 && vn_compare_distances(v, u, s) <= 0;
+}
+
+static bool is_neighbor_by_definition(const vn_network *network, int32_t v, const double s[3]) {
+    double p[3], q[3];
+    vn_network_position(network, v, p);
+    for (int32_t u = 0; u < vn_network_count(network); u++) {
+        vn_network_position(network, u, q);
+        if (u != v && excludes_exactly(q, p, s)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static int32_t count_by_definition(const walled *w) {
+    int32_t pairs = 0;
+    vn_points points = vn_attractors_points(w->sources);
+    for (int32_t i = 0; i < vn_attractors_count(w->sources); i++) {
+        double s[3];
+        vn_points_get(&points, i, s);
+        for (int32_t v = 0; v < vn_network_count(w->network); v++) {
+            pairs += is_neighbor_by_definition(w->network, v, s);
+        }
+    }
+    return pairs;
+}
+
+static void check_walled(walled *w) {
+    vn_influence_def def = {.mode = VN_RELATIVE};
+    vn_points points = vn_attractors_points(w->sources);
+    assert_ok(vn_influence_find(&w->influence, w->sources, w->network, &def));
+    for (int32_t k = 0; k < vn_influence_count(w->influence); k++) {
+        double s[3];
+        vn_points_get(&points, vn_influence_attractor(w->influence, k), s);
+        assert_true(is_neighbor_by_definition(w->network, vn_influence_node(w->influence, k), s));
+    }
+    assert_int_equal(vn_influence_count(w->influence), count_by_definition(w));
+}
+
+static void extend_walled(walled *w, int steps) {
+    vn_extend_def def = {.length = 3, .domain = w->box, .meet = VN_MEET_JOIN};
+    int32_t added, first;
+    for (int step = 0; step < steps; step++) {
+        assert_ok(vn_extend(w->network, w->influence, &def, &added, &first));
+        check_walled(w);
+    }
+}
+
+static void place_in(vn_rng *rng, double low, double high, double p[3]) {
+    p[0] = uniform(rng, low, high);
+    p[1] = uniform(rng, low, high);
+    p[2] = 0;
+}
+
+// By hand: in the box mostly, or beyond one of its walls, where no source looks for it.
+static void add_by_hand(walled *w, bool outside) {
+    double p[3];
+    place_in(&w->rng, 0, WALL, p);
+    int side = (int)whole(&w->rng, 0, 3);
+    if (outside) {
+        p[side / 2] = side % 2 ? WALL + uniform(&w->rng, 0, WALL) : -uniform(&w->rng, 0, WALL);
+    }
+    int32_t parent = (int32_t)whole(&w->rng, 0, vn_network_count(w->network) - 1);
+    assert_ok(vn_network_add(w->network, parent, p, NULL));
+}
+
+static void sow_walled(walled *w, int sources) {
+    for (int i = 0; i < sources; i++) {
+        double s[3];
+        place_in(&w->rng, 0, WALL, s);
+        assert_ok(vn_attractors_add(w->sources, s));
+    }
+}
+
+// The veins start in a corner, so that most sources see them on one side alone.
+static void start_walled(walled *w, uint64_t seed) {
+    *w = (walled){.rng = vn_rng_make(seed), .box = box_of(0, 0, WALL, WALL)};
+    w->network = network_of(2);
+    w->sources = attractors_of(2, 0);
+    double width = uniform(&w->rng, 5, WALL);
+    for (int64_t k = whole(&w->rng, 1, 12); k > 0; k--) {
+        double p[3];
+        place_in(&w->rng, 0, width, p);
+        assert_ok(vn_network_root(w->network, p, NULL));
+    }
+    sow_walled(w, 3);
+    check_walled(w);
+}
+
+static void neighbors_inside_walls_and_beyond(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 400; seed++) {
+        walled w;
+        start_walled(&w, seed);
+        extend_walled(&w, 3);
+        sow_walled(&w, 5);
+        check_walled(&w);
+        extend_walled(&w, (int)whole(&w.rng, 1, 4));
+        add_by_hand(&w, false);
+        check_walled(&w);
+        add_by_hand(&w, true);
+        check_walled(&w);
+        extend_walled(&w, 2);
+        sow_walled(&w, 3);
+        check_walled(&w);
+        add_by_hand(&w, true);
+        check_walled(&w);
+        vn_influence_destroy(w.influence);
+        vn_attractors_destroy(w.sources);
+        vn_network_destroy(w.network);
+        vn_domain_release(w.box);
+    }
+}
+
 static void assert_golden(const double (*node)[2], int nodes, double x, double y, int mode,
                           unsigned expected) {
     scene s = {.dim = 2, .nodes = nodes, .source = {x, y}};
@@ -460,6 +587,7 @@ int main(void) {
         cmocka_unit_test(urquhart_neighbors_are_what_the_definition_says),
         cmocka_unit_test(urquhart_neighbors_without_triangles),
         cmocka_unit_test(neighbors_are_found_again_after_a_scaling),
+        cmocka_unit_test(neighbors_inside_walls_and_beyond),
         cmocka_unit_test(golden_neighbors),
         cmocka_unit_test(golden_meeting),
         cmocka_unit_test(a_vein_stops_before_it_crosses),
