@@ -154,7 +154,8 @@ static join_ends join_at(const chain_maker *maker, int32_t join) {
     return ends;
 }
 
-// Whether the chain of the edge of @p node, drawn as one width, goes on over the join that continues its vein.
+// Whether the chain of the edge of @p node, drawn as one width, goes on over the join that continues its
+// vein.
 static bool takes_in(const chain_maker *maker, int32_t node, int32_t join) {
     double width = join_at(maker, join).width;
     return !is_hidden(maker, width) && drawn_width(maker, width) == node_width(maker, node) &&

@@ -108,8 +108,8 @@ VN_API vn_extend_def vn_extend_def_default(void);
 /// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
 /// retired. @p added gets how many nodes and joins there are more, @p first the index of the first such node.
 /// Counts the network's step on. When it adds none, and neither attractors nor domain change, no later call
-/// will; but where attractors influence several nodes each, some may stand in each other's way until, after two
-/// dozen calls, they are given up.
+/// will; but where attractors influence several nodes each, some may stand in each other's way until, after
+/// two dozen calls, they are given up.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,
                            int32_t *added, int32_t *first);
 
