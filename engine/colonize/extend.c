@@ -413,7 +413,11 @@ static void count_idle_steps(const extension *e) {
 }
 
 static bool same_box(const vn_box *a, const vn_box *b) {
-    return memcmp(a->min, b->min, sizeof a->min) == 0 && memcmp(a->max, b->max, sizeof a->max) == 0;
+    bool same = true;
+    for (int k = 0; k < 3; k++) {
+        same = same && a->min[k] == b->min[k] && a->max[k] == b->max[k];
+    }
+    return same;
 }
 
 // Veins stay inside a domain that stays, and inside what a margin grows to.

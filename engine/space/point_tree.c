@@ -80,6 +80,7 @@ static vn_status insert(vn_point_tree *tree, const vn_points *points, int32_t po
 
 static bool is_inside(const vn_point_tree *tree, const double p[3]) {
     for (int k = 0; k < tree->dim; k++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): there are 2 or 3 dimensions
         if (p[k] < tree->low[k] || p[k] >= tree->low[k] + tree->size) {
             return false;
         }
@@ -93,6 +94,7 @@ static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
     int which = 0;
     VN_TRY(add_children(tree, &first));
     for (int k = 0; k < tree->dim; k++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): there are 2 or 3 dimensions
         if (p[k] < tree->low[k]) {
             tree->low[k] -= tree->size;
             which |= 1 << k;

@@ -360,6 +360,7 @@ static int next_ray(const ray *rays, int count, int r) {
 }
 
 static int32_t leader(int32_t *to, int32_t i) {
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): edges are between nodes there are
     while (to[i] != i) {
         i = to[i] = to[to[i]];
     }
@@ -368,8 +369,9 @@ static int32_t leader(int32_t *to, int32_t i) {
 
 static int count_components(const vn_network *network, int *lone) {
     int32_t count = vn_network_count(network), a, b;
-    int32_t *to = malloc((size_t)count * sizeof *to);
+    int32_t *to = calloc((size_t)count + 1, sizeof *to);
     int components = count;
+    assert_non_null(to);
     *lone = 0;
     for (int32_t i = 0; i < count; i++) {
         to[i] = i;

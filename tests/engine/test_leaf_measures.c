@@ -41,7 +41,11 @@ static vn_network *network_of_sketch(const sketch *s) {
     int32_t *parent = malloc(MOST * sizeof *parent), *by = malloc(MOST * sizeof *by);
     double *radius = calloc(MOST, sizeof *radius);
     bool *seen = calloc(MOST, sizeof *seen), *used = calloc(3 * MOST, sizeof *used);
-    assert_true(parent != NULL && by != NULL && radius != NULL && seen != NULL && used != NULL);
+    assert_non_null(parent);
+    assert_non_null(by);
+    assert_non_null(radius);
+    assert_non_null(seen);
+    assert_non_null(used);
     for (int32_t v = 0; v < s->nodes; v++) {
         if (seen[v]) {
             continue;
@@ -510,7 +514,8 @@ static void merges_up_to_a_width_leave_the_faces_of_the_rest(void **state) {
         triangulation *t = triangulate(seed, 0.2, 0.2);
         vn_network *network = network_of_sketch(t->sketch);
         vn_leaf_measures m = measured(network, NULL);
-        for (double width = 1; width <= 2; width += 0.125) {
+        for (int eighth = 8; eighth <= 16; eighth++) {
+            double width = eighth / 8.0;
             int32_t merged = 0, united = 0, above[TRIANGLES + 1];
             memcpy(above, t->above, sizeof above);
             for (int32_t e = 0; e < t->sketch->edges; e++) {
