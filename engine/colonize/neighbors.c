@@ -286,10 +286,27 @@ static bool is_tie(const vn_attractors *a, int32_t i, int32_t node) {
     return false;
 }
 
-// The corners of the conflict hole, in place of what is around.
-static vn_status find_hole(vn_attractors *a, vn_network *network, const double s[3], double *circumradius) {
+// A node from which the triangulation is searched: a neighbor of old, or for a newcomer the nearest node.
+static vn_status start_near(vn_attractors *a, vn_network *network, int32_t i, const double s[3],
+                            int32_t *near) {
+    *near = a->node.data[i];
+    if (*near < 0) {
+        const vn_point_grid *grid;
+        vn_points nodes = vn_network_points(network);
+        vn_nearest query = {.reach2 = INFINITY};
+        VN_TRY(vn_network_grid(network, 0, &grid));
+        vn_point_grid_nearest(grid, &nodes, s, &query);
+        *near = query.point;
+    }
+    return VN_OK;
+}
+
+// The corners of the conflict hole, nearest first.
+static vn_status find_hole(vn_attractors *a, vn_network *network, int32_t i, const double s[3],
+                           double *circumradius) {
     vn_delaunay *delaunay;
-    int32_t near = a->near_nodes.count > 0 ? a->near_nodes.data[0].point : -1;
+    int32_t near;
+    VN_TRY(start_near(a, network, i, s, &near));
     VN_TRY(vn_network_delaunay(network, &delaunay));
     VN_TRY(vn_delaunay_neighbors(delaunay, s, near, &a->candidates, circumradius));
     VN_TRY(vn_array_reserve(&a->near_nodes, a->candidates.count));
@@ -409,15 +426,15 @@ static double interest_of(const vn_attractors *a, const vn_network *network, con
 }
 
 static vn_status find_around(vn_attractors *a, vn_network *network, int32_t i, const double s[3]) {
-    const vn_point_tree *tree;
-    vn_points nodes = vn_network_points(network);
     double reach;
-    VN_TRY(vn_network_tree_of_points(network, &tree));
-    VN_TRY(vn_point_tree_around(tree, &nodes, s, a->reach2, &a->near_nodes));
     if (a->mode == VN_RELATIVE) {
+        const vn_point_tree *tree;
+        vn_points nodes = vn_network_points(network);
+        VN_TRY(vn_network_tree_of_points(network, &tree));
+        VN_TRY(vn_point_tree_around(tree, &nodes, s, a->reach2, &a->near_nodes));
         reach = interest_of(a, network, s);
     } else {
-        VN_TRY(find_hole(a, network, s, &reach));
+        VN_TRY(find_hole(a, network, i, s, &reach));
         reach *= 2; // what pushes a corner out of the hole is in one of the circles round it
     }
     a->near2.data[i] = fmin(reach * reach * (1 + 1e-6), a->reach2);

@@ -205,8 +205,10 @@ static vn_status look_for_ties(vn_attractors *a, vn_network *network, int32_t be
 }
 
 static vn_status show_ties(vn_attractors *a, vn_network *network, int32_t begin, int32_t seen) {
-    const vn_point_tree *tree;
-    VN_TRY(vn_network_tree_of_points(network, &tree));
+    if (a->mode == VN_RELATIVE) {
+        const vn_point_tree *tree;
+        VN_TRY(vn_network_tree_of_points(network, &tree));
+    }
     a->news.count = 0;
     VN_TRY(show_nodes(a, network, begin, seen));
     VN_TRY(vn_ties_show(a, network));
