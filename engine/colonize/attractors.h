@@ -41,9 +41,11 @@ enum {
 /// found in its lunes.
 enum { VN_GUARDS = 4 };
 typedef struct vn_guards {
-    double farthest2;                              ///< no neighbor is farther
-    double at[VN_GUARDS][3], distance2[VN_GUARDS]; ///< where they are, and how far from the attractor
-    int32_t node[VN_GUARDS];
+    double farthest2; ///< no neighbor is farther
+    struct {
+        double distance2; ///< from the attractor; INFINITY: nobody is posted
+        double at[3];
+    } post[VN_GUARDS];
     int32_t turn; ///< which of them gives way next
 } vn_guards;
 

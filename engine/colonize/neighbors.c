@@ -55,7 +55,7 @@ static void give_back(vn_attractors *a, int32_t tie) {
     a->free_tie = tie;
 }
 
-static const vn_guards no_guards = {.node = {-1, -1, -1, -1}};
+static const vn_guards no_guards = {.post = {{INFINITY}, {INFINITY}, {INFINITY}, {INFINITY}}};
 
 vn_status vn_ties_prepare(vn_attractors *a) {
     VN_TRY(vn_array_reserve(&a->first_tie, a->x.count));
@@ -78,8 +78,8 @@ bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], doub
     if (a->mode != VN_RELATIVE || d2 <= guards->farthest2) {
         return false; // it might drive a neighbor out
     }
-    for (int k = 0; k < VN_GUARDS && guards->node[k] >= 0; k++) {
-        if (vn_distance2(guards->at[k], u) < SURE * d2 && guards->distance2[k] < SURE * d2) {
+    for (int k = 0; k < VN_GUARDS; k++) {
+        if (guards->post[k].distance2 < SURE * d2 && vn_distance2(guards->post[k].at, u) < SURE * d2) {
             return true;
         }
     }
@@ -90,10 +90,9 @@ bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], doub
 static void post_guard(vn_attractors *a, const vn_network *network, int32_t i, int32_t node, bool nearest) {
     vn_guards *guards = &a->guards.data[i];
     guards->turn = nearest ? guards->turn : guards->turn % (VN_GUARDS - 1) + 1;
-    int post = nearest ? 0 : guards->turn;
-    guards->node[post] = node;
-    guards->distance2[post] = distance2_of(a, network, i, node);
-    vn_network_position(network, node, guards->at[post]);
+    int k = nearest ? 0 : guards->turn;
+    guards->post[k].distance2 = distance2_of(a, network, i, node);
+    vn_network_position(network, node, guards->post[k].at);
 }
 
 void vn_ties_drop(vn_attractors *a, int32_t i) {
@@ -211,7 +210,7 @@ static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i,
         VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
     }
     vn_guards *guards = &a->guards.data[i];
-    post_guard(a, network, i, node, guards->node[0] < 0 || d2 < guards->distance2[0]);
+    post_guard(a, network, i, node, d2 < guards->post[0].distance2);
     guards->farthest2 = fmax(guards->farthest2, d2);
     made.next = a->first_tie.data[i];
     a->ties.data[tie] = made;
