@@ -55,7 +55,9 @@ static void give_back(vn_attractors *a, int32_t tie) {
     a->free_tie = tie;
 }
 
-static const vn_guards no_guards = {.post = {{INFINITY}, {INFINITY}, {INFINITY}, {INFINITY}}};
+static const vn_guards no_guards = {
+    .post = {
+        {.distance2 = INFINITY}, {.distance2 = INFINITY}, {.distance2 = INFINITY}, {.distance2 = INFINITY}}};
 
 vn_status vn_ties_prepare(vn_attractors *a) {
     VN_TRY(vn_array_reserve(&a->first_tie, a->x.count));
