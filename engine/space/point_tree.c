@@ -182,13 +182,8 @@ static double farthest_along(const place *at, int dim, const double normal[3]) {
     return sum;
 }
 
-static bool overlaps(const lune_query *q, const place *at) {
+static bool may_hold(const lune_query *q, const place *at) {
     int dim = q->tree->dim;
-    for (int k = 0; k < dim; k++) {
-        if (at->low[k] > q->lune->high[k] || at->low[k] + at->size < q->lune->low[k]) {
-            return false;
-        }
-    }
     return farthest_along(at, dim, q->lune->normal) >= q->lune->least &&
            distance2_to(at, dim, q->lune->v) <= q->width2 && distance2_to(at, dim, q->lune->s) <= q->width2;
 }
@@ -202,6 +197,18 @@ static int child_amid(const lune_query *q, const place *at) {
     return which;
 }
 
+// Bit c: the lune's box reaches into child c of a cell that it reaches into.
+static unsigned children_reached(const lune_query *q, const place *at) {
+    static const unsigned lower[3] = {0x55, 0x33, 0x0F}; // the children below the middle of each axis
+    unsigned reached = q->tree->dim == 3 ? 0xFF : 0x0F;
+    for (int k = 0; k < q->tree->dim; k++) {
+        double middle = at->low[k] + 0.5 * at->size;
+        reached &= q->lune->low[k] < middle ? ~0U : ~lower[k];
+        reached &= q->lune->high[k] >= middle ? ~0U : lower[k];
+    }
+    return reached;
+}
+
 // NOLINTNEXTLINE(misc-no-recursion): no deeper than DEEPEST below the root, and that by doubling alone
 static bool any_below(const lune_query *q, int32_t cell, const place *at) {
     const vn_tree_cell *here = &q->tree->cells.data[cell];
@@ -210,12 +217,15 @@ static bool any_below(const lune_query *q, int32_t cell, const place *at) {
         return any_in_leaf(q, here);
     }
     int first = child_amid(q, at);
+    unsigned reached = children_reached(q, at);
     for (int k = 0; k < 1 << dim; k++) {
         int c = k ^ first;
         const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
-        bool empty = child->children < 0 && child->count == 0;
+        if (!(reached >> c & 1) || (child->children < 0 && child->count == 0)) {
+            continue;
+        }
         place below = child_place(at, dim, c);
-        if (!empty && overlaps(q, &below) && any_below(q, here->children + c, &below)) {
+        if (may_hold(q, &below) && any_below(q, here->children + c, &below)) {
             return true;
         }
     }
