@@ -140,7 +140,8 @@ static void what_flows_in_is_what_tips_take_up(void **state) {
         int32_t count = vn_network_count(network), joins = vn_network_join_count(network), tips = 0;
         bool *has_child = calloc((size_t)count, sizeof *has_child);
         int32_t *parents = calloc((size_t)count, sizeof *parents);
-        assert_true(has_child != NULL && parents != NULL);
+        assert_non_null(has_child);
+        assert_non_null(parents);
         for (int pass = 0; pass < 2; pass++) {
             for (int32_t e = 0; e < count + joins; e++) {
                 int32_t a = e < count ? vn_network_parent(network)[e] : -1, b = e;
@@ -350,6 +351,10 @@ static vn_canvas *canvas_of(const vn_network *network, const vn_stroke_def *def)
     return canvas;
 }
 
+static bool same_spot(vn_spot a, vn_spot b) {
+    return a.x == b.x && a.y == b.y;
+}
+
 // The width that the picture gives the edge a-b at its end b; 0: not in the picture.
 static double drawn(const vn_canvas *canvas, const vn_network *network, int32_t a, int32_t b) {
     const double *x = vn_network_x(network), *y = vn_network_y(network);
@@ -358,7 +363,7 @@ static double drawn(const vn_canvas *canvas, const vn_network *network, int32_t 
         const vn_piece *piece = &canvas->pieces.data[i];
         const vn_spot *spots = canvas->points.data + piece->begin;
         for (int32_t k = 1; k < piece->count; k++) {
-            if (memcmp(&spots[k - 1], &from, sizeof from) == 0 && memcmp(&spots[k], &to, sizeof to) == 0) {
+            if (same_spot(spots[k - 1], from) && same_spot(spots[k], to)) {
                 return piece->end_width;
             }
         }
