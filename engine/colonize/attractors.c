@@ -267,7 +267,6 @@ int32_t vn_attractors_public(vn_attractors *a, int32_t internal) {
 vn_status vn_attractors_position(vn_attractors *a, int32_t index, double p[3]) {
     int32_t i;
     VN_TRY(vn_attractors_number(a, index, &i));
-    vn_points points = vn_attractors_points(a);
-    vn_points_get(&points, i, p);
+    vn_attractors_place(a, i, p);
     return VN_OK;
 }

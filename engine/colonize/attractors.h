@@ -143,6 +143,25 @@ static inline vn_points vn_attractors_points(const vn_attractors *a) {
     return (vn_points){a->x.data, a->y.data, a->dim == 3 ? a->z.data : NULL};
 }
 
+static inline void vn_attractors_place(const vn_attractors *a, int32_t i, double p[3]) {
+    vn_points points = vn_attractors_points(a);
+    vn_points_get(&points, i, p);
+}
+
+/// The squared distance of attractor @p i from a node.
+static inline double vn_attractors_distance2(const vn_attractors *a, const vn_network *network, int32_t i,
+                                             int32_t node) {
+    double p[3], q[3];
+    vn_attractors_place(a, i, p);
+    vn_network_position(network, node, q);
+    return vn_distance2(p, q);
+}
+
+/// Whether all attractors have to be asked if a node is within @p distance, rather than the fresh ones.
+static inline bool vn_attractors_ask_all(const vn_attractors *a, double distance) {
+    return a->fresh_all || distance * distance > a->consumed2;
+}
+
 static inline bool vn_is_gone(const vn_attractors *a, int32_t i) {
     return a->near2.data[i] < 0;
 }
@@ -192,9 +211,10 @@ typedef enum vn_outcome { VN_CLEAR, VN_MET, VN_BARRED } vn_outcome;
 /// Whether a join of @p a and @p b would close a loop of a few edges, no wider than an edge is long: they are
 /// connected, twigs of one fork, or one has met the other's neighbor.
 bool vn_met_before(const vn_network *network, int32_t a, int32_t b);
-/// Whether an edge from @p node to @p p (which is node @p to, or is to be one: -1) is clear of the others. If
-/// not, and it can be, @p node is joined to what it meets.
-vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, double length,
+/// Whether an edge from @p node to @p p (which is node @p to, or is to be one: -1) is clear of the others, as
+/// far as @p def minds what it meets. Where it has veins joined and that can be done, @p node is joined to
+/// it.
+vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, const vn_extend_def *def,
                   vn_outcome *outcome);
 
 /// The attractors in a grid for queries of @p reach; gone ones are in it too.

@@ -21,8 +21,7 @@ vn_consume_def vn_consume_def_default(void) {
 
 vn_status vn_consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32_t *consumed) {
     double p[3];
-    vn_points points = vn_attractors_points(a);
-    vn_points_get(&points, i, p);
+    vn_attractors_place(a, i, p);
     if (into != NULL) {
         VN_TRY(vn_attractors_add(into, p));
     }
@@ -37,9 +36,8 @@ static bool is_reached(const vn_attractors *a, const vn_network *network, int32_
         return a->node.data[i] >= 0 && a->near2.data[i] < distance * distance;
     }
     double p[3];
-    vn_points points = vn_attractors_points(a);
     vn_points nodes = vn_network_points(network);
-    vn_points_get(&points, i, p);
+    vn_attractors_place(a, i, p);
     return vn_point_grid_any_within(&network->grid, &nodes, p, distance, NULL, NULL) >= 0;
 }
 
@@ -72,8 +70,7 @@ static void watch_waiting(vn_attractors *a, double distance2) {
         int32_t i = a->waiting.data[k];
         if (!vn_is_gone(a, i) && a->node.data[i] < 0) {
             double p[3];
-            vn_points points = vn_attractors_points(a);
-            vn_points_get(&points, i, p);
+            vn_attractors_place(a, i, p);
             a->near2.data[i] = distance2;
             vn_reach_tree_raise(&a->tree, p, distance2);
         }
@@ -97,8 +94,8 @@ static vn_status consume_by_mode(vn_attractors *a, vn_network *network, const vn
         return vn_touch(a, network, def, consumed);
     }
     forget_touched(a);
-    bool all = a->fresh_all || def->distance * def->distance > a->consumed2;
-    return all ? consume_all(a, network, def, consumed) : consume_fresh(a, def, consumed);
+    return vn_attractors_ask_all(a, def->distance) ? consume_all(a, network, def, consumed)
+                                                   : consume_fresh(a, def, consumed);
 }
 
 vn_status vn_consume(vn_attractors *a, vn_network *network, const vn_consume_def *def, int32_t *consumed) {

@@ -36,9 +36,8 @@ typedef struct extension {
 
 static double direction_to(const extension *e, int32_t node, int32_t attractor, double n[3]) {
     double p[3], q[3];
-    vn_points points = vn_attractors_points(e->a);
     vn_network_position(e->network, node, p);
-    vn_points_get(&points, attractor, q);
+    vn_attractors_place(e->a, attractor, q);
     double length = sqrt(vn_distance2(p, q));
     for (int k = 0; k < 3; k++) {
         n[k] = length > 0 ? (q[k] - p[k]) / length : 0;
@@ -178,23 +177,10 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
-static vn_status is_crossed(const extension *e, int32_t node, const double p[3], bool *crossed) {
-    vn_meeting met;
-    *crossed = false;
-    if (e->def->meet != VN_MEET_STOP || e->network->dim != 2) {
-        return VN_OK;
-    }
-    return vn_network_meets(e->network, node, p, -1, e->def->length, crossed, &met);
-}
-
 static vn_status grow_edge(const extension *e, int32_t node, const double p[3]) {
-    vn_outcome outcome = VN_CLEAR;
-    bool crossed;
-    if (e->def->meet == VN_MEET_JOIN && e->network->dim == 2) {
-        VN_TRY(vn_meet(e->network, node, p, -1, e->def->length, &outcome));
-    }
-    VN_TRY(is_crossed(e, node, p, &crossed));
-    return outcome == VN_CLEAR && !crossed ? vn_network_add(e->network, node, p, NULL) : VN_OK;
+    vn_outcome outcome;
+    VN_TRY(vn_meet(e->network, node, p, -1, e->def, &outcome));
+    return outcome == VN_CLEAR ? vn_network_add(e->network, node, p, NULL) : VN_OK;
 }
 
 static vn_status step_toward(const extension *e, int32_t node, int32_t attractor) {
@@ -210,10 +196,9 @@ static vn_status step_toward(const extension *e, int32_t node, int32_t attractor
 static vn_status look_for_sight(const extension *e, int32_t attractor, int64_t tries, bool *found) {
     vn_attractors *a = e->a;
     sight s = {e, attractor, {0, 0, 0}, tries, NULL};
-    vn_points points = vn_attractors_points(a);
     vn_points nodes = vn_network_points(e->network);
     const vn_point_grid *grid;
-    vn_points_get(&points, attractor, s.at);
+    vn_attractors_place(a, attractor, s.at);
     VN_TRY(vn_network_grid(e->network, 0, &grid));
     vn_nearest query = {.reach2 = a->reach2,
                         .seed = a->seed,
@@ -256,8 +241,7 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
     if (!found) {
         VN_TRY(vn_array_push(&a->waiting, attractor));
         double p[3];
-        vn_points points = vn_attractors_points(a);
-        vn_points_get(&points, attractor, p);
+        vn_attractors_place(a, attractor, p);
         a->node.data[attractor] = -1;
         a->near2.data[attractor] = a->consumed2;
         vn_reach_tree_raise(&a->tree, p, a->consumed2);
@@ -373,18 +357,17 @@ static void retire_barred(const extension *e) {
 
 // Attractors on both sides of a vein draw along it or across it: one of them alone may still be reached.
 static vn_status grow_or_stop(const extension *e, double p[3]) {
-    bool crossed;
-    if (e->def->meet != VN_MEET_STOP) {
-        return grow_edge(e, e->node, p);
+    vn_outcome outcome;
+    VN_TRY(vn_meet(e->network, e->node, p, -1, e->def, &outcome));
+    bool stopped = e->def->meet == VN_MEET_STOP && outcome == VN_BARRED;
+    if (stopped && step_to_one(e, p)) {
+        VN_TRY(vn_meet(e->network, e->node, p, -1, e->def, &outcome));
+        stopped = outcome == VN_BARRED;
     }
-    VN_TRY(is_crossed(e, e->node, p, &crossed));
-    if (crossed && step_to_one(e, p)) {
-        VN_TRY(is_crossed(e, e->node, p, &crossed));
-    }
-    if (crossed && e->a->mode == VN_NEAREST) {
+    if (stopped && e->a->mode == VN_NEAREST) {
         retire_barred(e);
     }
-    return crossed ? VN_OK : vn_network_add(e->network, e->node, p, NULL);
+    return outcome == VN_CLEAR ? vn_network_add(e->network, e->node, p, NULL) : VN_OK;
 }
 
 // In the closed modes an attractor that the border hides waits for other veins.

@@ -75,15 +75,12 @@ static bool draws(const vn_attractors *a, int32_t i, const vn_tie *tie) {
 
 static vn_status list_ties(vn_influence *influence, int32_t i, double within2) {
     vn_attractors *a = influence->attractors;
-    vn_points points = vn_attractors_points(a);
     int32_t begin = influence->node.count;
-    double p[3], q[3];
-    vn_points_get(&points, i, p);
     vn_ties_drop_ghosts(a, influence->network, i);
     for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
         int32_t node = a->ties.data[tie].node;
-        vn_network_position(influence->network, node, q);
-        if (draws(a, i, &a->ties.data[tie]) && vn_distance2(p, q) <= within2) {
+        double d2 = vn_attractors_distance2(a, influence->network, i, node);
+        if (draws(a, i, &a->ties.data[tie]) && d2 <= within2) {
             VN_TRY(push_pair(influence, i, node));
             int32_t at = influence->node.count - 1;
             for (; at > begin && influence->node.data[at - 1] > node; at--) {

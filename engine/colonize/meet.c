@@ -96,18 +96,21 @@ static vn_status join_into(vn_network *network, int32_t node, const vn_meeting *
     return other ? join_to(network, node, ends[!nearer], length, outcome) : VN_OK;
 }
 
-vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, double length,
+vn_status vn_meet(vn_network *network, int32_t node, const double p[3], int32_t to, const vn_extend_def *def,
                   vn_outcome *outcome) {
     bool meets;
     vn_meeting met;
     *outcome = VN_CLEAR;
-    VN_TRY(vn_network_meets(network, node, p, to, length, &meets, &met));
+    if (def->meet == VN_MEET_CROSS || network->dim != 2) {
+        return VN_OK;
+    }
+    VN_TRY(vn_network_meets(network, node, p, to, def->length, &meets, &met));
     if (!meets) {
         return VN_OK;
     }
     int32_t a, b;
     vn_network_edge_ends(network, met.edge, &a, &b);
     *outcome = VN_BARRED;
-    bool own = a == node || b == node;
-    return own ? VN_OK : join_into(network, node, &met, length, outcome);
+    bool stays = def->meet == VN_MEET_STOP || a == node || b == node;
+    return stays ? VN_OK : join_into(network, node, &met, def->length, outcome);
 }

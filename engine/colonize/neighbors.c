@@ -3,8 +3,8 @@
 //
 // The relative neighbors are kept exactly and without a triangulation of their own: nodes only ever come, so
 // V(s ∪ u) is V(s) without what u excludes, and u if nothing excludes it. Only an attractor that is new looks
-// at the triangulation of the nodes, for the corners of its conflict hole. The Urquhart neighbors have no
-// such law (a node that u pushes out of the hole may have excluded another), and are found anew.
+// around. The Urquhart neighbors have no such law (a node that u pushes out of the conflict hole may have
+// excluded another), and are found anew among the corners of the hole.
 
 #include "colonize/attractors.h"
 
@@ -26,18 +26,6 @@ static int compare(const double p[3], const double a[3], const double b[3]) {
 // Whether u keeps v from being a relative neighbor of s: |u - s| < |v - s| and |u - v| <= |v - s|.
 static bool excludes(const double u[3], const double v[3], const double s[3]) {
     return compare(s, u, v) < 0 && compare(v, u, s) <= 0;
-}
-
-static void place_of(const vn_attractors *a, int32_t i, double p[3]) {
-    vn_points points = vn_attractors_points(a);
-    vn_points_get(&points, i, p);
-}
-
-static double distance2_of(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node) {
-    double s[3];
-    vn_points nodes = vn_network_points(network);
-    place_of(a, i, s);
-    return vn_points_distance2(&nodes, node, s);
 }
 
 static int32_t take_tie(vn_attractors *a) {
@@ -93,7 +81,7 @@ static void post_guard(vn_attractors *a, const vn_network *network, int32_t i, i
     vn_guards *guards = &a->guards.data[i];
     guards->turn = nearest ? guards->turn : guards->turn % (VN_GUARDS - 1) + 1;
     int k = nearest ? 0 : guards->turn;
-    guards->post[k].distance2 = distance2_of(a, network, i, node);
+    guards->post[k].distance2 = vn_attractors_distance2(a, network, i, node);
     vn_network_position(network, node, guards->post[k].at);
 }
 
@@ -118,7 +106,7 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
             *link = a->ties.data[tie].next;
             give_back(a, tie);
         } else {
-            farthest2 = fmax(farthest2, distance2_of(a, network, i, a->ties.data[tie].node));
+            farthest2 = fmax(farthest2, vn_attractors_distance2(a, network, i, a->ties.data[tie].node));
             link = &a->ties.data[tie].next;
         }
     }
@@ -453,7 +441,7 @@ bool vn_ties_have_room(const vn_attractors *a, const vn_network *network, int32_
 
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {
     double s[3], v[3];
-    place_of(a, i, s);
+    vn_attractors_place(a, i, s);
     VN_TRY(find_around(a, network, i, s));
     // Farthest first, so that the nearest becomes the head of the list, where it is asked first.
     for (int32_t k = a->near_nodes.count - 1; k >= 0; k--) {
@@ -548,7 +536,7 @@ static vn_status show_group(vn_attractors *a, const vn_network *network, vn_keye
     if (a->mode == VN_URQUHART) {
         return vn_array_push(&a->outdated, i);
     }
-    place_of(a, i, s);
+    vn_attractors_place(a, i, s);
     push_in(a, network, i, s, news, count);
     vn_status status = VN_OK;
     for (int32_t k = 0; k < count && status == VN_OK; k++) {

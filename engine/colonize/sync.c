@@ -50,11 +50,10 @@ vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2) {
 
 static bool is_hidden_from(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node) {
     double p[3], q[3];
-    vn_points points = vn_attractors_points(a);
     if (!(a->idle.data[i] & VN_HIDDEN)) {
         return false;
     }
-    vn_points_get(&points, i, p);
+    vn_attractors_place(a, i, p);
     vn_network_position(network, node, q);
     return !vn_domain_sees(a->sight, q, p);
 }

@@ -15,11 +15,7 @@ typedef struct touch {
 } touch;
 
 static double distance_to(const touch *t, int32_t i, int32_t node) {
-    double p[3], q[3];
-    vn_points points = vn_attractors_points(t->a);
-    vn_points_get(&points, i, p);
-    vn_network_position(t->network, node, q);
-    return sqrt(vn_distance2(p, q));
+    return sqrt(vn_attractors_distance2(t->a, t->network, i, node));
 }
 
 static bool is_within_reach(const touch *t, int32_t i) {
@@ -84,12 +80,13 @@ static bool await_all(const touch *t, int32_t i) {
     return false;
 }
 
+enum { MOST_ENDS = 32 };
+
 /// The ends of the veins that came to one attractor.
 typedef struct meeting_ends {
-    enum { MOST_ENDS = 32 } most;
-    int32_t node[32];
-    bool grew[32];
-    bool taken[32];
+    int32_t node[MOST_ENDS];
+    bool grew[MOST_ENDS];
+    bool taken[MOST_ENDS];
     int count;
 } meeting_ends;
 
@@ -178,8 +175,7 @@ static int next_group(const touch *t, meeting_ends *ends, int32_t group[MOST_END
 static void place_junction(const touch *t, int32_t i, const int32_t *group, int count, bool first,
                            double p[3]) {
     double mean[3] = {0}, farthest = 0;
-    vn_points points = vn_attractors_points(t->a);
-    vn_points_get(&points, i, p);
+    vn_attractors_place(t->a, i, p);
     for (int k = 0; k < count; k++) {
         double q[3];
         vn_network_position(t->network, group[k], q);
@@ -209,8 +205,8 @@ static vn_status connect_end(const touch *t, int32_t end, const double p[3], int
     if (end == *to || !sees(t, end, p) || (*to >= 0 && vn_network_connected(network, end, *to))) {
         return VN_OK;
     }
-    if (t->a->last.meet == VN_MEET_JOIN && network->dim == 2) {
-        VN_TRY(vn_meet(network, end, p, *to, t->a->last.length, &outcome));
+    if (t->a->last.meet == VN_MEET_JOIN) {
+        VN_TRY(vn_meet(network, end, p, *to, &t->a->last, &outcome));
     }
     if (outcome != VN_CLEAR) {
         return VN_OK;
@@ -296,7 +292,6 @@ vn_status vn_touch(vn_attractors *a, vn_network *network, const vn_consume_def *
     t.stepped = a->minded_step != network->step;
     a->minded_step = network->step;
     t.patience = (int32_t)fmin(ceil(2 * def->distance / a->last.length) + 2, 250);
-    bool all = a->fresh_all || def->distance * def->distance > a->consumed2;
-    VN_TRY(all ? touch_all(&t) : touch_fresh(&t));
+    VN_TRY(vn_attractors_ask_all(a, def->distance) ? touch_all(&t) : touch_fresh(&t));
     return mind_touched(&t);
 }
