@@ -14,18 +14,6 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
 
-/// A vertex knows its point's number; -1 until it has one.
-struct Number {
-    int32_t value = -1;
-    operator int32_t() const {
-        return value;
-    }
-    Number &operator=(int32_t other) {
-        value = other;
-        return *this;
-    }
-};
-
 using Vertices = CGAL::Triangulation_vertex_base_with_info_2<Number, Kernel>;
 using Structure = CGAL::Triangulation_data_structure_2<Vertices, CGAL::Triangulation_ds_face_base_2<>>;
 using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
@@ -39,7 +27,7 @@ double circumradius(const Point &p, const Point &a, const Point &b) {
     return area > least ? sides / (2 * area) * (1 + 1e-3) : std::numeric_limits<double>::infinity();
 }
 
-class Delaunay2 final : public Delaunay<Triangulation, Point> {
+class Delaunay2 final : public Delaunay<Triangulation> {
   public:
     void insert(const double p[3], int32_t near) override {
         append(triangulation.insert(Point(p[0], p[1]), face_near(near)));

@@ -15,24 +15,12 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 
-/// A vertex knows its point's number; -1 until it has one.
-struct Number {
-    int32_t value = -1;
-    operator int32_t() const {
-        return value;
-    }
-    Number &operator=(int32_t other) {
-        value = other;
-        return *this;
-    }
-};
-
 using Vertices = CGAL::Triangulation_vertex_base_with_info_3<Number, Kernel>;
 using Cells = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
 using Structure = CGAL::Triangulation_data_structure_3<Vertices, Cells>;
 using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
 
-class Delaunay3 final : public Delaunay<Triangulation, Point> {
+class Delaunay3 final : public Delaunay<Triangulation> {
   public:
     void insert(const double p[3], int32_t near) override {
         append(triangulation.insert(Point(p[0], p[1], p[2]), cell_near(near)));

@@ -26,8 +26,20 @@ struct vn_delaunay {
 std::unique_ptr<vn_delaunay> vn_delaunay_make_2();
 std::unique_ptr<vn_delaunay> vn_delaunay_make_3();
 
+/// A vertex knows its point's number; -1 until it has one.
+struct Number {
+    int32_t value = -1;
+    operator int32_t() const {
+        return value;
+    }
+    Number &operator=(int32_t other) {
+        value = other;
+        return *this;
+    }
+};
+
 /// The part that does not depend on the dimension.
-template <typename Triangulation, typename Point>
+template <typename Triangulation>
 class Delaunay : public vn_delaunay {
   public:
     using Vertex = typename Triangulation::Vertex_handle;
