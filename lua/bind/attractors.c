@@ -113,12 +113,9 @@ static void read_z(lua_State *L, void *object, int32_t i) {
 static int push_retired(lua_State *L, const vn_attractors *attractors) {
     vn_retired retired = vn_attractors_retired(attractors);
     lua_createtable(L, 0, 3);
-    lua_pushinteger(L, retired.hidden);
-    lua_setfield(L, -2, "hidden");
-    lua_pushinteger(L, retired.circled);
-    lua_setfield(L, -2, "circled");
-    lua_pushinteger(L, retired.barred);
-    lua_setfield(L, -2, "barred");
+    vnl_set_integer(L, "hidden", retired.hidden);
+    vnl_set_integer(L, "circled", retired.circled);
+    vnl_set_integer(L, "barred", retired.barred);
     return 1;
 }
 

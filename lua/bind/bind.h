@@ -104,6 +104,12 @@ int vnl_read_point(lua_State *L, int index, const char *what, double p[3]);
 void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]);
 /// A number that is not a string that looks like one.
 double vnl_check_number(lua_State *L, int index, const char *what);
+/// Set a field of the table on top of the stack.
+void vnl_set_integer(lua_State *L, const char *name, lua_Integer value);
+void vnl_set_number(lua_State *L, const char *name, double value);
+/// Push @p size zeroed bytes of Lua's own, which @p release frees what hangs from even when Lua runs out of
+/// memory half way.
+void *vnl_push_owned(lua_State *L, size_t size, lua_CFunction release);
 /// Push coordinates.
 int vnl_push_coordinates(lua_State *L, int dim, const double p[3]);
 /// Push {min = {…}, max = {…}}.

@@ -20,6 +20,16 @@ static void **box_at(lua_State *L, int index, const vnl_class *class) {
     return same ? box : NULL;
 }
 
+void *vnl_push_owned(lua_State *L, size_t size, lua_CFunction release) {
+    void *block = lua_newuserdatauv(L, size, 0);
+    memset(block, 0, size);
+    lua_createtable(L, 0, 1);
+    lua_pushcfunction(L, release);
+    lua_setfield(L, -2, "__gc");
+    lua_setmetatable(L, -2);
+    return block;
+}
+
 void **vnl_push_box(lua_State *L, const vnl_class *class) {
     void **box = lua_newuserdatauv(L, sizeof *box, 1);
     *box = NULL;

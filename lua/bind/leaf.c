@@ -10,23 +10,7 @@ static int free_measures(lua_State *L) {
 }
 
 vn_leaf_measures *vnl_push_leaf_measures(lua_State *L) {
-    vn_leaf_measures *m = lua_newuserdatauv(L, sizeof *m, 0);
-    *m = (vn_leaf_measures){0};
-    lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, free_measures);
-    lua_setfield(L, -2, "__gc");
-    lua_setmetatable(L, -2);
-    return m;
-}
-
-static void set_count(lua_State *L, const char *name, lua_Integer value) {
-    lua_pushinteger(L, value);
-    lua_setfield(L, -2, name);
-}
-
-static void set_number(lua_State *L, const char *name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
+    return vnl_push_owned(L, sizeof(vn_leaf_measures), free_measures);
 }
 
 static void set_list(lua_State *L, const char *name, const double *values, int32_t count) {
@@ -40,40 +24,40 @@ static void set_list(lua_State *L, const char *name, const double *values, int32
 
 static void set_statistics(lua_State *L, const char *name, const vn_statistics *s) {
     lua_createtable(L, 0, 8);
-    set_count(L, "count", s->count);
-    set_number(L, "mean", s->mean);
-    set_number(L, "deviation", s->deviation);
-    set_number(L, "min", s->min);
-    set_number(L, "lower", s->lower);
-    set_number(L, "median", s->median);
-    set_number(L, "upper", s->upper);
-    set_number(L, "max", s->max);
+    vnl_set_integer(L, "count", s->count);
+    vnl_set_number(L, "mean", s->mean);
+    vnl_set_number(L, "deviation", s->deviation);
+    vnl_set_number(L, "min", s->min);
+    vnl_set_number(L, "lower", s->lower);
+    vnl_set_number(L, "median", s->median);
+    vnl_set_number(L, "upper", s->upper);
+    vnl_set_number(L, "max", s->max);
     lua_setfield(L, -2, name);
 }
 
 static void set_hierarchy(lua_State *L, const vn_loop_hierarchy *h) {
     lua_createtable(L, 0, 5);
-    set_count(L, "merges", h->merge_count);
-    set_count(L, "height", h->height);
-    set_count(L, "strahler", h->strahler);
-    set_number(L, "asymmetry", h->asymmetry);
-    set_number(L, "nesting", h->nesting);
+    vnl_set_integer(L, "merges", h->merge_count);
+    vnl_set_integer(L, "height", h->height);
+    vnl_set_integer(L, "strahler", h->strahler);
+    vnl_set_number(L, "asymmetry", h->asymmetry);
+    vnl_set_number(L, "nesting", h->nesting);
     lua_setfield(L, -2, "hierarchy");
 }
 
 static void set_angles(lua_State *L, const vn_branching_angles *angles) {
     lua_createtable(L, 0, 3);
-    set_count(L, "count", angles->count);
-    set_number(L, "daughters", angles->daughters);
+    vnl_set_integer(L, "count", angles->count);
+    vnl_set_number(L, "daughters", angles->daughters);
     lua_createtable(L, 5, 0);
     for (int k = 0; k < 5; k++) {
         lua_createtable(L, 0, 6);
-        set_number(L, "from", k / 5.0);
-        set_number(L, "to", (k + 1) / 5.0);
-        set_count(L, "count", angles->bins[k].count);
-        set_number(L, "thick_middle", angles->bins[k].thick_middle);
-        set_number(L, "thick_thin", angles->bins[k].thick_thin);
-        set_number(L, "middle_thin", angles->bins[k].middle_thin);
+        vnl_set_number(L, "from", k / 5.0);
+        vnl_set_number(L, "to", (k + 1) / 5.0);
+        vnl_set_integer(L, "count", angles->bins[k].count);
+        vnl_set_number(L, "thick_middle", angles->bins[k].thick_middle);
+        vnl_set_number(L, "thick_thin", angles->bins[k].thick_thin);
+        vnl_set_number(L, "middle_thin", angles->bins[k].middle_thin);
         lua_rawseti(L, -2, k + 1);
     }
     lua_setfield(L, -2, "bins");
@@ -82,34 +66,34 @@ static void set_angles(lua_State *L, const vn_branching_angles *angles) {
 
 static void set_distance(lua_State *L, const vn_vein_distance *distance) {
     lua_createtable(L, 0, 5);
-    set_number(L, "resolution", distance->resolution);
-    set_count(L, "points", distance->points);
-    set_number(L, "mean", distance->mean);
-    set_number(L, "max", distance->max);
-    set_number(L, "mode", distance->mode);
+    vnl_set_number(L, "resolution", distance->resolution);
+    vnl_set_integer(L, "points", distance->points);
+    vnl_set_number(L, "mean", distance->mean);
+    vnl_set_number(L, "max", distance->max);
+    vnl_set_number(L, "mode", distance->mode);
     lua_setfield(L, -2, "distance");
 }
 
 static void set_counts(lua_State *L, const vn_leaf_measures *m) {
-    set_count(L, "tips", m->tips);
-    set_count(L, "free_ends", m->free_ends);
-    set_count(L, "degree3", m->degree3);
-    set_count(L, "degree4", m->degree4);
-    set_count(L, "degree_more", m->degree_more);
-    set_count(L, "loops", m->loops);
-    set_count(L, "crossings", m->crossings);
-    set_count(L, "areoles", m->areoles);
+    vnl_set_integer(L, "tips", m->tips);
+    vnl_set_integer(L, "free_ends", m->free_ends);
+    vnl_set_integer(L, "degree3", m->degree3);
+    vnl_set_integer(L, "degree4", m->degree4);
+    vnl_set_integer(L, "degree_more", m->degree_more);
+    vnl_set_integer(L, "loops", m->loops);
+    vnl_set_integer(L, "crossings", m->crossings);
+    vnl_set_integer(L, "areoles", m->areoles);
 }
 
 void vnl_push_leaf_table(lua_State *L, const vn_leaf_measures *m) {
     lua_createtable(L, 0, 22);
-    set_number(L, "area", m->area);
+    vnl_set_number(L, "area", m->area);
     lua_pushstring(L, m->hull ? "hull" : "domain");
     lua_setfield(L, -2, "area_of");
-    set_number(L, "length", m->length);
-    set_number(L, "density", m->density);
-    set_number(L, "tip_density", m->tip_density);
-    set_number(L, "free_end_density", m->free_end_density);
+    vnl_set_number(L, "length", m->length);
+    vnl_set_number(L, "density", m->density);
+    vnl_set_number(L, "tip_density", m->tip_density);
+    vnl_set_number(L, "free_end_density", m->free_end_density);
     set_counts(L, m);
     set_list(L, "order_density", m->order_density, m->order_count);
     set_list(L, "areole_areas", m->areole_areas, m->areoles);

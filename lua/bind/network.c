@@ -52,26 +52,26 @@ static int network_root(lua_State *L) {
     return 1;
 }
 
-static int network_add(lua_State *L) {
+typedef vn_status put_fn(vn_network *network, int32_t at, const double p[3], int32_t *node);
+
+// A new node at the coordinates from argument 3 on, hung on or put before node 2.
+static int put_node(lua_State *L, const char *what, put_fn *put) {
     vn_network *network = check_network(L);
     double p[3];
-    int32_t parent = check_node(L, 2, network, "network:add");
+    int32_t at = check_node(L, 2, network, what);
     int32_t node;
     vnl_check_coordinates(L, 3, vn_network_dim(network), p);
-    vnl_try(L, vn_network_add(network, parent, p, &node));
+    vnl_try(L, put(network, at, p, &node));
     lua_pushinteger(L, node + 1);
     return 1;
 }
 
+static int network_add(lua_State *L) {
+    return put_node(L, "network:add", vn_network_add);
+}
+
 static int network_split(lua_State *L) {
-    vn_network *network = check_network(L);
-    double p[3];
-    int32_t child = check_node(L, 2, network, "network:split");
-    int32_t node;
-    vnl_check_coordinates(L, 3, vn_network_dim(network), p);
-    vnl_try(L, vn_network_split(network, child, p, &node));
-    lua_pushinteger(L, node + 1);
-    return 1;
+    return put_node(L, "network:split", vn_network_split);
 }
 
 static int network_join(lua_State *L) {
@@ -139,16 +139,6 @@ static int network_orders(lua_State *L) {
     return 0;
 }
 
-static void set_count(lua_State *L, const char *name, lua_Integer value) {
-    lua_pushinteger(L, value);
-    lua_setfield(L, -2, name);
-}
-
-static void set_number(lua_State *L, const char *name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
-}
-
 static bool wants_leaf(lua_State *L, int options) {
     if (!lua_istable(L, options)) {
         return false;
@@ -175,15 +165,15 @@ static int network_measure(lua_State *L) {
         vnl_try(L, vn_network_measure_leaf(network, &def, leaf));
     }
     lua_createtable(L, 0, 11);
-    set_count(L, "nodes", m.nodes);
-    set_count(L, "roots", m.roots);
-    set_count(L, "tips", m.tips);
-    set_count(L, "bifurcations", m.bifurcations);
-    set_count(L, "joins", m.joins);
-    set_count(L, "depth", m.depth);
-    set_number(L, "length", m.length);
-    set_number(L, "min_radius", m.min_radius);
-    set_number(L, "max_radius", m.max_radius);
+    vnl_set_integer(L, "nodes", m.nodes);
+    vnl_set_integer(L, "roots", m.roots);
+    vnl_set_integer(L, "tips", m.tips);
+    vnl_set_integer(L, "bifurcations", m.bifurcations);
+    vnl_set_integer(L, "joins", m.joins);
+    vnl_set_integer(L, "depth", m.depth);
+    vnl_set_number(L, "length", m.length);
+    vnl_set_number(L, "min_radius", m.min_radius);
+    vnl_set_number(L, "max_radius", m.max_radius);
     vnl_push_bounds(L, vn_network_dim(network), &m.extent, vn_network_unit(network));
     lua_setfield(L, -2, "extent");
     if (wanted) {
@@ -392,20 +382,9 @@ static int free_set(lua_State *L) {
     return 0;
 }
 
-// A set of Lua's own, so that its remains are freed even when Lua runs out of memory half way.
-static vn_network_set *push_set(lua_State *L) {
-    vn_network_set *set = lua_newuserdatauv(L, sizeof *set, 0);
-    *set = (vn_network_set){0};
-    lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, free_set);
-    lua_setfield(L, -2, "__gc");
-    lua_setmetatable(L, -2);
-    return set;
-}
-
 static int load_networks(lua_State *L) {
     const char *path = vnl_push_path(L, 1);
-    vn_network_set *set = push_set(L);
+    vn_network_set *set = vnl_push_owned(L, sizeof *set, free_set);
     vnl_try(L, vn_networks_load(set, path));
     bool single = set->count == 1 && set->names[0][0] == '\0';
     if (!single) {

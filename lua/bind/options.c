@@ -234,6 +234,16 @@ void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]) {
     }
 }
 
+void vnl_set_integer(lua_State *L, const char *name, lua_Integer value) {
+    lua_pushinteger(L, value);
+    lua_setfield(L, -2, name);
+}
+
+void vnl_set_number(lua_State *L, const char *name, double value) {
+    lua_pushnumber(L, value);
+    lua_setfield(L, -2, name);
+}
+
 int vnl_push_coordinates(lua_State *L, int dim, const double p[3]) {
     for (int k = 0; k < dim; k++) {
         lua_pushnumber(L, p[k]);
