@@ -108,6 +108,14 @@ VN_API int32_t vn_network_join_order(const vn_network *network, int32_t join);
 /// are outdated.
 VN_API const int32_t *vn_network_orders(const vn_network *network);
 
+/// Say what flows through each node's edge (volume by time; at a root, what enters there) and the pressure at
+/// each node; one entry a node, copied. @p pressure may be NULL: unknown. Both hold until the network next
+/// changes. VN_INVALID for numbers that are not finite.
+VN_API vn_status vn_network_set_flow(vn_network *network, const double *flow, const double *pressure);
+/// One entry a node, borrowed until the network next changes; NULL where unknown or outdated.
+VN_API const double *vn_network_flow(const vn_network *network);
+VN_API const double *vn_network_pressure(const vn_network *network);
+
 /// What a network measures.
 typedef struct vn_network_measures {
     int32_t nodes, roots, tips, bifurcations, joins; ///< a bifurcation is a node with two children or more
