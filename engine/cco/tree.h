@@ -1,0 +1,98 @@
+/// An arterial tree while it grows: the radii of Kerautret et al. 2023, Equations 1 to 7, kept so that what a
+/// change somewhere does to the whole tree is found by one way up to the root.
+///
+/// A vessel is a node with the segment to its parent. Through it flows Q (`flow`); its reduced resistance R
+/// (Equation 6) is kept divided by kappa = 8 mu / pi, and so is a length, as is its reduced volume
+/// v = l + sum of beta^2 v over its children: the volume of a segment and all below it is pi r^2 v. With
+/// h = (Q R)^(1/4) the radii of children are to one another as their h (Equation 4), beta = h / H where
+/// H^gamma = sum of h^gamma (Equation 3), and the sum in Equation 6 comes to Q / H^4.
+#ifndef VN_CCO_TREE_H
+#define VN_CCO_TREE_H
+
+#include "base/array.h"
+#include "base/status.h"
+
+#include <math.h>
+
+typedef struct vn_vessel {
+    double p[3];
+    double length;     ///< of the segment; 0 at a root
+    double flow;       ///< volume by time; at a root, what enters there
+    double resistance; ///< R / kappa
+    double volume;     ///< v
+    float cap;         ///< the radius up to which the segment breaks no rule; never below its radius
+    float slack;       ///< its radius up to which no segment below, itself included, passes its cap
+    int32_t parent, first_child, next_child; ///< -1: none
+} vn_vessel;
+
+/// A point of the bifurcation exponent as a function of the flow of the parent segment.
+typedef struct vn_exponent {
+    double flow, exponent;
+} vn_exponent;
+
+typedef struct vn_tree {
+    VN_ARRAY(vn_vessel) vessels;
+    VN_ARRAY(vn_exponent) exponents; ///< by flow, one or more
+    double factor;                   ///< kappa / (P_in - P_out): r^4 = factor Q R for a segment at the root
+} vn_tree;
+
+/// What hangs at an end: one branch with all below it.
+typedef struct vn_branch {
+    double flow, resistance, volume;
+} vn_branch;
+
+/// What a changed branch makes of the tree.
+typedef struct vn_effect {
+    double volume; ///< of the whole tree, less what it was
+    double radius; ///< of the branch's own segment
+    /// How fast the volume rises with the branch's resistance and volume.
+    double by_resistance, by_volume;
+} vn_effect;
+
+void vn_tree_free(vn_tree *tree);
+
+/// The bifurcation exponent gamma where so much flows in.
+double vn_tree_exponent(const vn_tree *tree, double flow);
+
+/// h^gamma of a branch, from its Q R; H^2 from the sum of these.
+static inline double vn_branch_weight(double exponent, double flow_resistance) {
+    double root = sqrt(flow_resistance);
+    return exponent == 3 ? root * sqrt(root) : pow(flow_resistance, exponent / 4);
+}
+static inline double vn_branches_square(double exponent, double sum) {
+    double root = exponent == 3 ? cbrt(sum) : pow(sum, 1 / exponent);
+    return root * root;
+}
+
+/// All branches below a node as one: flow, the resistance H^4 / Q and the volume sum of beta^2 v. Zero at a
+/// terminal. @p except (or -1) is left out, and @p instead (or NULL) counts besides.
+typedef struct vn_fork {
+    double flow, sum, square; ///< of all branches; the sum of h^gamma; H^2
+    double resistance, volume;
+} vn_fork;
+vn_fork vn_tree_fork(const vn_tree *tree, int32_t node, int32_t except, const vn_branch *instead);
+
+static inline bool vn_is_stem(const vn_tree *tree, int32_t node) {
+    return tree->vessels.data[tree->vessels.data[node].parent].parent < 0;
+}
+
+/// The effect of @p branch hanging where the segment of @p node hangs now (its upper end stays).
+vn_effect vn_tree_effect(const vn_tree *tree, int32_t node, const vn_branch *branch);
+
+/// Volume of the whole tree: the sum of pi r^2 l.
+double vn_tree_volume(const vn_tree *tree);
+/// Radius of a node's segment, by way of the root. At a root, that of its thickest segment.
+double vn_tree_radius(const vn_tree *tree, int32_t node);
+/// The ratio of a node's radius to its parent segment's; @p fork is its parent's.
+double vn_tree_beta(const vn_tree *tree, int32_t node, const vn_fork *fork);
+
+/// Add a node; what hangs together is told by vn_tree_update().
+vn_status vn_tree_push(vn_tree *tree, int32_t parent, const double p[3], int32_t *node);
+/// Put a new node at @p p into the segment of @p node; it becomes the parent.
+vn_status vn_tree_split(vn_tree *tree, int32_t node, const double p[3], int32_t *middle);
+/// Bring flow, resistance and volume up to date from @p node up to its root. The flow of a terminal stays.
+void vn_tree_update(vn_tree *tree, int32_t node);
+/// Bring slack up to date from @p node up to its root.
+void vn_tree_settle(vn_tree *tree, int32_t node);
+
+#endif
