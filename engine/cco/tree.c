@@ -174,23 +174,32 @@ vn_status vn_tree_split(vn_tree *tree, int32_t node, const double p[3], int32_t 
     return VN_OK;
 }
 
+void vn_tree_refresh(vn_tree *tree, int32_t node) {
+    vn_vessel *v = &tree->vessels.data[node];
+    vn_fork fork = vn_tree_fork(tree, node, -1, NULL);
+    v->flow = v->first_child >= 0 ? fork.flow : v->flow;
+    v->resistance = v->length + fork.resistance;
+    v->volume = v->length + fork.volume;
+}
+
 void vn_tree_update(vn_tree *tree, int32_t node) {
-    for (vn_vessel *v = tree->vessels.data; node >= 0; node = v[node].parent) {
-        vn_fork fork = vn_tree_fork(tree, node, -1, NULL);
-        v[node].flow = v[node].first_child >= 0 ? fork.flow : v[node].flow;
-        v[node].resistance = v[node].length + fork.resistance;
-        v[node].volume = v[node].length + fork.volume;
+    for (; node >= 0; node = tree->vessels.data[node].parent) {
+        vn_tree_refresh(tree, node);
     }
 }
 
-void vn_tree_settle(vn_tree *tree, int32_t node) {
+void vn_tree_settle_one(vn_tree *tree, int32_t node) {
     vn_vessel *v = tree->vessels.data;
-    for (; v[node].parent >= 0; node = v[node].parent) {
-        double slack = v[node].cap;
-        vn_fork fork = vn_tree_fork(tree, node, -1, NULL);
-        for (int32_t c = v[node].first_child; c >= 0; c = v[c].next_child) {
-            slack = fmin(slack, v[c].slack / vn_tree_beta(tree, c, &fork));
-        }
-        v[node].slack = (float)(slack * (1 - 1e-7));
+    double slack = v[node].cap;
+    vn_fork fork = vn_tree_fork(tree, node, -1, NULL);
+    for (int32_t c = v[node].first_child; c >= 0; c = v[c].next_child) {
+        slack = fmin(slack, v[c].slack / vn_tree_beta(tree, c, &fork));
+    }
+    v[node].slack = (float)(slack * (1 - 1e-7));
+}
+
+void vn_tree_settle(vn_tree *tree, int32_t node) {
+    for (; tree->vessels.data[node].parent >= 0; node = tree->vessels.data[node].parent) {
+        vn_tree_settle_one(tree, node);
     }
 }

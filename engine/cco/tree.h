@@ -90,9 +90,13 @@ double vn_tree_beta(const vn_tree *tree, int32_t node, const vn_fork *fork);
 vn_status vn_tree_push(vn_tree *tree, int32_t parent, const double p[3], int32_t *node);
 /// Put a new node at @p p into the segment of @p node; it becomes the parent.
 vn_status vn_tree_split(vn_tree *tree, int32_t node, const double p[3], int32_t *middle);
-/// Bring flow, resistance and volume up to date from @p node up to its root. The flow of a terminal stays.
+/// Bring flow, resistance and volume of one node up to date with its children.
+void vn_tree_refresh(vn_tree *tree, int32_t node);
+/// The same from @p node up to its root. The flow of a terminal stays.
 void vn_tree_update(vn_tree *tree, int32_t node);
-/// Bring slack up to date from @p node up to its root.
+/// Bring slack of one node up to date with its cap and its children.
+void vn_tree_settle_one(vn_tree *tree, int32_t node);
+/// The same from @p node up to its root.
 void vn_tree_settle(vn_tree *tree, int32_t node);
 
 #endif

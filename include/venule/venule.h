@@ -7,6 +7,7 @@
 #include "venule/base.h"
 #include "venule/domain.h"
 #include "venule/growth.h"
+#include "venule/cco.h"
 #include "venule/network.h"
 #include "venule/output.h"
 

@@ -1,0 +1,231 @@
+// Where a new terminal is connected (Kerautret et al. 2023, sections 4.3 to 4.5, Algorithm 6): of the nearest
+// segments, the one whose bifurcation adds least to the volume of the whole tree and breaks no rule.
+#include "cco/cco.h"
+
+#include "space/points.h"
+
+#include <stdlib.h>
+
+// The bifurcation point is known to this part of the triangle when candidates are compared, and to the last
+// digit in the one that is taken: the volume is flat about its minimum.
+static const double ROUGH = 1e-4, FINE = 1e-10;
+enum { ROUGH_ROUNDS = 2, FINE_ROUNDS = 40, KAMIYA_ROUNDS = 500 };
+
+static double inflate_after(const vn_cco *cco, const vn_grower *g) {
+    return vn_cco_inflate(cco, g->terminals + 1);
+}
+
+static bool make_triangle(const vn_grower *g, int32_t node, const double terminal[3], double flow,
+                          vn_triangle *t) {
+    const vn_vessel *v = vn_vessel_of(g, node);
+    vn_fork rest = vn_tree_fork(&g->tree, node, -1, NULL);
+    *t = (vn_triangle){.flow1 = v->flow, .flow2 = flow};
+    t->rest_resistance = rest.resistance;
+    t->rest_volume = rest.volume;
+    t->exponent = vn_tree_exponent(&g->tree, v->flow + flow);
+    return vn_triangle_make(t, vn_vessel_of(g, v->parent)->p, v->p, terminal);
+}
+
+// A way to the foot of the terminal on the segment: a thin vessel leaves a thick one there.
+static void start_near_foot(const vn_triangle *t, double x[2]) {
+    double foot = fmin(fmax(t->across[0], 0.15 * t->distal), 0.85 * t->distal);
+    x[0] = 0.85 * foot;
+    x[1] = 0.15 * t->across[1];
+}
+
+static bool find_point(const vn_cco *cco, const vn_grower *g, vn_candidate *c, double tolerance, int rounds) {
+    if (cco->def.bifurcation == VN_BIFURCATE_LEAST) {
+        return vn_bifurcation_least(&g->tree, c->node, &c->triangle, tolerance, rounds, c->x, &c->effect);
+    }
+    vn_kamiya_fn *solve = cco->def.bifurcation == VN_BIFURCATE_CERES ? vn_ceres_radii : vn_kamiya_radii;
+    return vn_bifurcation_kamiya(&g->tree, c->node, &c->triangle, solve, 1e-12, KAMIYA_ROUNDS, c->x,
+                                 &c->effect);
+}
+
+static vn_status consider(vn_cco *cco, vn_grower *g, int32_t node, const double terminal[3], double flow) {
+    vn_candidate c = {.node = node};
+    g->report.tried++;
+    bool found = make_triangle(g, node, terminal, flow, &c.triangle);
+    if (found) {
+        start_near_foot(&c.triangle, c.x);
+        found = find_point(cco, g, &c, ROUGH, ROUGH_ROUNDS);
+    }
+    if (!found) {
+        g->report.collapsed++;
+        return VN_OK;
+    }
+    return vn_array_push(&g->candidates, c);
+}
+
+static int by_volume(const void *a, const void *b) {
+    const vn_candidate *c = a, *d = b;
+    if (c->effect.volume != d->effect.volume) {
+        return c->effect.volume < d->effect.volume ? -1 : 1;
+    }
+    return c->node < d->node ? -1 : 1;
+}
+
+static void make_plan(const vn_cco *cco, const vn_grower *g, const vn_candidate *c, const double terminal[3],
+                      vn_plan *plan) {
+    double inflate = inflate_after(cco, g);
+    vn_branch b[3];
+    *plan = (vn_plan){.node = c->node, .upper = vn_vessel_of(g, c->node)->parent};
+    memcpy(plan->terminal, terminal, sizeof plan->terminal);
+    vn_triangle_point(&c->triangle, c->x, plan->x);
+    vn_triangle_branches(&c->triangle, c->x, b);
+    plan->branch = b[0];
+    plan->radius[0] = inflate * c->effect.radius;
+    double lengths[3];
+    vn_triangle_lengths(&c->triangle, c->x, lengths);
+    double fork = b[0].flow * (b[0].resistance - lengths[0]); // H^4
+    for (int i = 1; i < 3; i++) {
+        plan->radius[i] = plan->radius[0] * sqrt(sqrt(b[i].flow * b[i].resistance / fork));
+    }
+}
+
+static bool is_uneven(const vn_grower *g, const vn_plan *plan) {
+    double thin = fmin(plan->radius[1], plan->radius[2]), thick = fmax(plan->radius[1], plan->radius[2]);
+    return thin < g->symmetry * thick;
+}
+
+static void count_refusal(vn_grower *g, vn_verdict verdict) {
+    int64_t *const counts[] = {[VN_SHORT] = &g->report.short_segments,
+                               [VN_OUTSIDE] = &g->report.outside,
+                               [VN_CROSSING] = &g->report.crossing,
+                               [VN_CROWDING] = &g->report.crowding,
+                               [VN_ASYMMETRIC] = &g->report.asymmetric};
+    ++*counts[verdict];
+}
+
+// Lengths alone tell of most candidates that they are too short, before anybody looks around.
+static bool is_short(const vn_grower *g, const vn_plan *plan) {
+    const double *distal = vn_vessel_of(g, plan->node)->p, *start = vn_vessel_of(g, plan->upper)->p;
+    double lengths[3] = {sqrt(vn_distance2(start, plan->x)), sqrt(vn_distance2(plan->x, distal)),
+                         sqrt(vn_distance2(plan->x, plan->terminal))};
+    for (int i = 0; i < 3; i++) {
+        bool given = i == 1 && plan->node < g->given;
+        if (!given && 2 * plan->radius[i] > lengths[i]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static vn_status judge(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict) {
+    *verdict = is_short(g, plan) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
+    return *verdict == VN_ALLOWED ? vn_rules_judge(cco, g, plan, verdict) : VN_OK;
+}
+
+static vn_status insert_all(vn_grower *g, const int32_t *nodes, const double *caps, int count) {
+    for (int i = 0; i < count; i++) {
+        vn_vessel_of(g, nodes[i])->cap = (float)(caps[i] * (1 - 1e-7));
+        VN_TRY(vn_places_insert(g, nodes[i]));
+    }
+    for (int i = count - 1; i >= 0; i--) {
+        vn_tree_settle(&g->tree, nodes[i]);
+    }
+    return VN_OK;
+}
+
+static vn_status tell_darts(vn_grower *g, const int32_t *nodes, int count, double moved) {
+    double ends[3][2][3];
+    for (int i = 0; i < count; i++) {
+        const vn_vessel *v = vn_vessel_of(g, nodes[i]);
+        memcpy(ends[i][0], vn_vessel_of(g, v->parent)->p, sizeof ends[i][0]);
+        memcpy(ends[i][1], v->p, sizeof ends[i][1]);
+    }
+    return vn_darts_tell(&g->darts, (const double(*)[2][3])ends, count, moved);
+}
+
+static vn_status grow_first(vn_grower *g, const vn_plan *plan, double flow) {
+    int32_t node;
+    VN_TRY(vn_tree_push(&g->tree, plan->upper, plan->terminal, &node));
+    vn_vessel_of(g, node)->flow = flow;
+    vn_tree_update(&g->tree, node);
+    g->terminals++;
+    VN_TRY(insert_all(g, &node, &plan->caps[2], 1));
+    return tell_darts(g, &node, 1, 0);
+}
+
+static vn_status grow_fork(vn_grower *g, const vn_plan *plan, double flow) {
+    int32_t middle, leaf;
+    VN_TRY(vn_array_reserve(&g->tree.vessels, (int64_t)g->tree.vessels.count + 2));
+    const double *start = vn_vessel_of(g, plan->upper)->p, *end = vn_vessel_of(g, plan->node)->p;
+    double moved = sqrt(vn_point_segment_distance2(plan->x, start, end));
+    vn_places_remove(g, plan->node);
+    VN_TRY(vn_tree_split(&g->tree, plan->node, plan->x, &middle));
+    VN_TRY(vn_tree_push(&g->tree, middle, plan->terminal, &leaf));
+    vn_vessel_of(g, leaf)->flow = flow;
+    vn_tree_refresh(&g->tree, plan->node);
+    vn_tree_update(&g->tree, leaf);
+    g->terminals++;
+    int32_t nodes[3] = {middle, plan->node, leaf};
+    VN_TRY(insert_all(g, nodes, plan->caps, 3));
+    return tell_darts(g, nodes, 3, moved);
+}
+
+static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const double terminal[3], double flow,
+                               bool *done) {
+    vn_plan plan = {.node = -1, .upper = root};
+    vn_verdict verdict;
+    memcpy(plan.terminal, terminal, sizeof plan.terminal);
+    double length = sqrt(vn_distance2(terminal, vn_vessel_of(g, root)->p));
+    plan.radius[2] = inflate_after(cco, g) * sqrt(sqrt(g->tree.factor * flow * length));
+    VN_TRY(vn_rules_judge(cco, g, &plan, &verdict));
+    *done = verdict == VN_ALLOWED;
+    if (!*done) {
+        count_refusal(g, verdict);
+        return VN_OK;
+    }
+    return grow_first(g, &plan, flow);
+}
+
+// The best of the candidates that keeps the rules, if any.
+static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
+    if (g->candidates.count > 1) {
+        qsort(g->candidates.data, (size_t)g->candidates.count, sizeof *g->candidates.data, by_volume);
+    }
+    for (int32_t i = 0; i < g->candidates.count && !*done; i++) {
+        vn_candidate *c = &g->candidates.data[i];
+        vn_plan plan;
+        vn_verdict verdict = VN_SHORT;
+        if (find_point(cco, g, c, FINE, FINE_ROUNDS)) {
+            make_plan(cco, g, c, terminal, &plan);
+            VN_TRY(judge(cco, g, &plan, &verdict));
+        }
+        if (verdict != VN_ALLOWED) {
+            count_refusal(g, verdict);
+            continue;
+        }
+        VN_TRY(grow_fork(g, &plan, flow));
+        *done = true;
+    }
+    return VN_OK;
+}
+
+static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
+    int32_t looked = 0, count = cco->def.candidates;
+    for (;; count = count > INT32_MAX / 2 ? INT32_MAX : 2 * count) {
+        int32_t all = g->tree.vessels.count;
+        VN_TRY(vn_places_nearest(g, terminal, count < all ? count : all));
+        g->candidates.count = 0;
+        for (int32_t i = looked; i < g->nearest.count; i++) {
+            VN_TRY(consider(cco, g, g->nearest.data[i].node, terminal, flow));
+        }
+        VN_TRY(choose(cco, g, terminal, flow, done));
+        if (*done || g->nearest.count < count) {
+            return VN_OK;
+        }
+        looked = g->nearest.count;
+        VN_TRY(vn_poll());
+    }
+}
+
+vn_status vn_connect(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
+    *done = false;
+    VN_TRY(vn_places_update(cco, g));
+    if (g->tree.vessels.count == 1) {
+        return connect_first(cco, g, 0, terminal, flow, done);
+    }
+    return connect_near(cco, g, terminal, flow, done);
+}

@@ -1,0 +1,66 @@
+/// Random terminals far from the vessels that there are (Kerautret et al. 2023, section 3.3.2): the
+/// distribution of darts that fall anywhere and are refused nearly always, without throwing those that must
+/// be.
+///
+/// The box around the region is cut into a tree of cells. Each knows a distance that no point in it exceeds
+/// from the vessels; darts are thrown only into cells where that is above the threshold, and those that would
+/// have fallen elsewhere are counted in one stroke.
+#ifndef VN_CCO_DARTS_H
+#define VN_CCO_DARTS_H
+
+#include "base/array.h"
+#include "venule/cco.h"
+
+typedef struct vn_dart_cell {
+    int32_t parent, first_child; ///< -1: a leaf
+    int32_t place;               ///< of a leaf, in its bin; -1: nothing of the region is in it
+    float bound;
+    float mass; ///< part of it that is in the region, weighed by density
+} vn_dart_cell;
+
+enum { VN_DART_LEVELS = 24, VN_DART_CLASSES = 200 };
+
+typedef struct vn_dart_bin {
+    VN_ARRAY(int32_t) cells;
+} vn_dart_bin;
+
+typedef struct vn_darts {
+    int dim;
+    const vn_domain *region;
+    vn_cco_value_fn *density;
+    void *payload;
+    double low[3], side; ///< of the outermost cell
+    double total;        ///< mass of the region: its measure, weighed
+    double mean;         ///< density
+    VN_ARRAY(vn_dart_cell) cells;
+    vn_dart_bin *bins;            ///< by class of bound, then level
+    double mass[VN_DART_CLASSES]; ///< of each class's leaves
+    double volume[VN_DART_CLASSES];
+} vn_darts;
+
+/// How far a point is from what it is to keep away from; and whether it may not be taken anyway.
+typedef double vn_dart_distance_fn(const double p[3], void *payload);
+typedef bool vn_dart_refuse_fn(const double p[3], void *payload);
+
+vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, vn_cco_value_fn *density,
+                        void *payload, vn_rng *rng);
+void vn_darts_free(vn_darts *darts);
+
+/// How a terminal is looked for: after so many tries in vain, the threshold is multiplied by `factor`.
+typedef struct vn_dart_search {
+    double threshold, factor;
+    int32_t tries;
+    vn_dart_distance_fn *distance;
+    vn_dart_refuse_fn *refuse;
+    void *payload;
+} vn_dart_search;
+/// A random point; @p darts_thrown counts those that were skipped too. VN_INFEASIBLE when none is found at a
+/// millionth of the region's size.
+vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *rng, double p[3],
+                         int64_t *darts_thrown);
+
+/// Vessels were added: these segments, each from one point to the next. Where @p moved is above 0, vessels at
+/// most that far from the first two were there instead.
+vn_status vn_darts_tell(vn_darts *darts, const double (*ends)[2][3], int32_t count, double moved);
+
+#endif
