@@ -177,7 +177,26 @@ static bool descend(const vn_triangle *t, const slope *s, double a, double b, co
 
 enum { MOST_STEPS = 40 };
 
-bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_volume, double x[2]) {
+// Whether moving away from the end x0 (or x1, with all that hangs there) makes the volume rise in every
+// direction: the pull of the other two is no more than the end's own weight (READINGS R13).
+static bool absorbs(const vn_triangle *t, int end, double a, double b) {
+    double x[2] = {end == 0 ? 0 : t->distal, 0}, pull[2] = {0, 0};
+    double ends[3][2] = {{0, 0}, {t->distal, 0}, {t->across[0], t->across[1]}};
+    place at;
+    slope s;
+    look(t, x, &at);
+    differentiate(t, &at, a, b, &s);
+    for (int i = 0; i < 3; i++) {
+        if (i != end) {
+            pull[0] += s.by_length[i] * (ends[i][0] - x[0]) / at.length[i];
+            pull[1] += s.by_length[i] * (ends[i][1] - x[1]) / at.length[i];
+        }
+    }
+    return s.by_length[end] >= sqrt(pull[0] * pull[0] + pull[1] * pull[1]);
+}
+
+bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_volume, double tolerance,
+                         double x[2]) {
     double size = t->distal + t->across[1];
     for (int i = 0; i < MOST_STEPS; i++) {
         place at;
@@ -197,7 +216,7 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
         if (moved <= 1e-12 * size || !descend(t, &s, by_resistance, by_volume, step, x)) {
             return moved <= 1e-4 * size;
         }
-        if (moved <= 1e-7 * size) { // Newton's next step would be its square
+        if (moved * moved <= tolerance * size * size) { // Newton's next step is about its square
             return true;
         }
     }
@@ -214,8 +233,11 @@ bool vn_bifurcation_least(const vn_tree *tree, int32_t node, const vn_triangle *
         if (i == rounds) {
             return true;
         }
-        double before[2] = {x[0], x[1]};
-        if (!vn_triangle_minimum(t, effect->by_resistance, effect->by_volume, x)) {
+        double before[2] = {x[0], x[1]}, a = effect->by_resistance, b = effect->by_volume;
+        if (i == 0 && (absorbs(t, 0, a, b) || (t->rest_resistance > 0 && absorbs(t, 1, a, b)))) {
+            return false;
+        }
+        if (!vn_triangle_minimum(t, a, b, tolerance, x)) {
             return false;
         }
         if (fabs(x[0] - before[0]) + fabs(x[1] - before[1]) <= tolerance * size) {

@@ -28,8 +28,9 @@ void vn_triangle_branches(const vn_triangle *t, const double x[2], vn_branch bra
 
 /// Move @p x to where by_resistance R + by_volume v of the branch is least: for weights from
 /// vn_tree_effect() that is the least volume of the tree, to first order in what the change does farther up.
-/// False when it runs into one of the points, which then absorbs it.
-bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_volume, double x[2]);
+/// @p tolerance is in parts of the size. False when it runs into one of the points, which then absorbs it.
+bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_volume, double tolerance,
+                         double x[2]);
 
 /// The whole: the point of least tree volume. @p node is the distal end of the old segment. Each round finds
 /// the minimum for the weights at the last point, until it moves less than @p tolerance of the size, or

@@ -11,6 +11,7 @@ static const vn_cco_def cco_default = {.terminals = 1000,
                                        .threshold = 0.9,
                                        .spacing = 1,
                                        .candidates = 20,
+                                       .most_candidates = 640,
                                        .redraws = 200,
                                        .growing_domain = true};
 
@@ -31,6 +32,8 @@ static const vn_field cco_fields[] = {
      "the threshold at first, in units of Equation 15"},
     {"candidates", VN_I32, 0, offsetof(vn_cco_def, candidates), 1, 100000, "segments", NULL,
      "nearest segments that are tried; twice as many while none will do"},
+    {"most_candidates", VN_I32, 0, offsetof(vn_cco_def, most_candidates), 1, 100000000, "segments", NULL,
+     "but no more than these for one terminal, which is then drawn anew"},
     {"redraws", VN_I32, 0, offsetof(vn_cco_def, redraws), 0, 100000000, "terminals", NULL,
      "terminals drawn anew before the domain counts as full"},
     {"bifurcation", VN_CHOICE, 0, offsetof(vn_cco_def, bifurcation), 0, 0, "", "least|kamiya|ceres",
@@ -482,6 +485,21 @@ static double distance_to_tree(const double p[3], void *payload) {
     return vn_places_distance(d->g, p, d->cco->def.placement == VN_PLACE_TERMINALS);
 }
 
+// Less than any vessel to here would need: with the whole drop of pressure at the nearest segment's upper
+// end, and half the way. A terminal nearer to the border than that cannot be connected, and trying it takes
+// longest.
+static double least_radius(const vn_cco *cco, const vn_grower *g, const double p[3]) {
+    double distance = vn_places_distance(g, p, false);
+    int32_t node = vn_places_nearest_one(g, p);
+    if (node < 0) {
+        return 0;
+    }
+    const vn_vessel *v = vn_vessel_of(g, node);
+    double drop = v->flow * v->resistance / pow(vn_tree_radius(&g->tree, node), 4);
+    double flow = g->flow != NULL ? 0 : g->terminal_flow;
+    return vn_cco_inflate(cco, g->terminals + 1) * sqrt(sqrt(flow * distance / 2 / drop));
+}
+
 // Nor may it lie in a vessel, of any tree, nor outside the whole domain where it falls into a part.
 static bool is_taken(const double p[3], void *payload) {
     const draw *d = payload;
@@ -491,7 +509,8 @@ static bool is_taken(const double p[3], void *payload) {
             return true;
         }
     }
-    return d->cco->part != d->cco->def.domain && !vn_domain_contains(d->cco->def.domain, p);
+    double border = vn_domain_distance(d->cco->def.domain, p) - d->cco->def.border_distance;
+    return border <= 0 || border < least_radius(d->cco, d->g, p);
 }
 
 static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, double p[3]) {

@@ -80,6 +80,7 @@ struct vn_cco {
     int dim;
     double low[3], high[3]; ///< of everything
     vn_domain *part;        ///< where terminals fall now; the domain itself or a part
+    bool provident; ///< vessels are to have room to thicken
     VN_ARRAY(vn_grower) growers;
     VN_ARRAY(vn_squeeze) squeezes; ///< working memory of rules.c
 };
@@ -105,6 +106,8 @@ void vn_places_remove(vn_grower *g, int32_t node);
 vn_status vn_places_set_cap(vn_grower *g, int32_t node, double cap);
 /// The distance from @p p to the nearest vessel's axis; or, with @p terminals, to the nearest terminal.
 double vn_places_distance(const vn_grower *g, const double p[3], bool terminals);
+/// The node of the nearest segment, or -1 while there is none.
+int32_t vn_places_nearest_one(const vn_grower *g, const double p[3]);
 /// Whether @p p is in a vessel of a tree inflated by @p inflate.
 bool vn_places_inside(const vn_grower *g, const double p[3], double inflate);
 /// Fill `nearest` with the @p count segments nearest to @p p, nearest first.
@@ -132,6 +135,7 @@ typedef struct vn_plan {
     double terminal[3];
     double radius[3]; ///< of the upper, the lower and the new segment, for the tree's size now; [2] alone of
                       ///< a first
+    double flow[3];     ///< through them
     vn_branch branch; ///< that hangs from `upper` then
     double caps[3];   ///< found by vn_rules_judge()
 } vn_plan;

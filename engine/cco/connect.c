@@ -9,7 +9,7 @@
 // The bifurcation point is known to this part of the triangle when candidates are compared, and to the last
 // digit in the one that is taken: the volume is flat about its minimum.
 static const double ROUGH = 1e-4, FINE = 1e-10;
-enum { ROUGH_ROUNDS = 2, FINE_ROUNDS = 40, KAMIYA_ROUNDS = 500 };
+enum { ROUGH_ROUNDS = 1, FINE_ROUNDS = 40, KAMIYA_ROUNDS = 500 };
 
 static double inflate_after(const vn_cco *cco, const vn_grower *g) {
     return vn_cco_inflate(cco, g->terminals + 1);
@@ -74,6 +74,9 @@ static void make_plan(const vn_cco *cco, const vn_grower *g, const vn_candidate 
     vn_triangle_point(&c->triangle, c->x, plan->x);
     vn_triangle_branches(&c->triangle, c->x, b);
     plan->branch = b[0];
+    for (int i = 0; i < 3; i++) {
+        plan->flow[i] = b[i].flow;
+    }
     plan->radius[0] = inflate * c->effect.radius;
     double lengths[3];
     vn_triangle_lengths(&c->triangle, c->x, lengths);
@@ -111,7 +114,7 @@ static bool is_short(const vn_grower *g, const vn_plan *plan) {
     return false;
 }
 
-static vn_status judge(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict) {
+static vn_status judge_once(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict) {
     *verdict = is_short(g, plan) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
     return *verdict == VN_ALLOWED ? vn_rules_judge(cco, g, plan, verdict) : VN_OK;
 }
@@ -170,6 +173,7 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
     vn_verdict verdict;
     memcpy(plan.terminal, terminal, sizeof plan.terminal);
     double length = sqrt(vn_distance2(terminal, vn_vessel_of(g, root)->p));
+    plan.flow[2] = flow;
     plan.radius[2] = inflate_after(cco, g) * sqrt(sqrt(g->tree.factor * flow * length));
     VN_TRY(vn_rules_judge(cco, g, &plan, &verdict));
     *done = verdict == VN_ALLOWED;
@@ -180,18 +184,19 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
     return grow_first(g, &plan, flow);
 }
 
-// The best of the candidates that keeps the rules, if any.
+// The best of the candidates that keeps the rules, if any: at first with room to thicken.
 static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
     if (g->candidates.count > 1) {
         qsort(g->candidates.data, (size_t)g->candidates.count, sizeof *g->candidates.data, by_volume);
     }
-    for (int32_t i = 0; i < g->candidates.count && !*done; i++) {
-        vn_candidate *c = &g->candidates.data[i];
+    for (int32_t i = 0; i < 2 * g->candidates.count && !*done; i++) {
+        cco->provident = i < g->candidates.count;
+        vn_candidate *c = &g->candidates.data[i % g->candidates.count];
         vn_plan plan;
         vn_verdict verdict = VN_SHORT;
         if (find_point(cco, g, c, FINE, FINE_ROUNDS)) {
             make_plan(cco, g, c, terminal, &plan);
-            VN_TRY(judge(cco, g, &plan, &verdict));
+            VN_TRY(judge_once(cco, g, &plan, &verdict));
         }
         if (verdict != VN_ALLOWED) {
             count_refusal(g, verdict);
@@ -213,7 +218,7 @@ static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3
             VN_TRY(consider(cco, g, g->nearest.data[i].node, terminal, flow));
         }
         VN_TRY(choose(cco, g, terminal, flow, done));
-        if (*done || g->nearest.count < count) {
+        if (*done || g->nearest.count < count || count >= cco->def.most_candidates) {
             return VN_OK;
         }
         looked = g->nearest.count;

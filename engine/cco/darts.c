@@ -240,7 +240,7 @@ static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const doubl
 static vn_status learn(vn_darts *darts, int32_t cell, const double p[3], double distance, double threshold) {
     box b = box_of(darts, cell);
     double bound = fmin(darts->cells.data[cell].bound, distance + farthest(darts, &b, p));
-    if (bound > threshold && half_diagonal(darts, b.side) > 0.2 * threshold && b.level < VN_DART_LEVELS - 1) {
+    if (bound > threshold && half_diagonal(darts, b.side) > 0.8 * threshold && b.level < VN_DART_LEVELS - 1) {
         return divide(darts, cell, &b, p, distance);
     }
     return set_bound(darts, cell, &b, bound);

@@ -83,6 +83,7 @@ typedef struct look {
     const double *p;
     bool terminals;
     double inflate, distance2;
+    int32_t node; ///< the nearest, the lower of equals; roots are none
 } look;
 
 static bool look_at(int32_t node, void *payload) {
@@ -109,6 +110,27 @@ static bool look_inside(int32_t node, void *payload) {
     }
     double radius = l->g->fixed ? cap : l->inflate * vn_tree_radius(&l->g->tree, node);
     return axis2 > radius * radius;
+}
+
+static bool look_for_segment(int32_t node, void *payload) {
+    look *l = payload;
+    const vn_vessel *v = vn_vessel_of(l->g, node);
+    double distance2 =
+        v->parent >= 0 ? vn_point_segment_distance2(l->p, upper_end(l->g, node), v->p) : INFINITY;
+    if (distance2 < l->distance2 || (distance2 == l->distance2 && node < l->node)) {
+        l->distance2 = distance2;
+        l->node = node;
+    }
+    return true;
+}
+
+int32_t vn_places_nearest_one(const vn_grower *g, const double p[3]) {
+    look l = {.g = g, .p = p, .distance2 = INFINITY, .node = -1};
+    double reach = 0;
+    for (int32_t ring = 0; reach * reach < l.distance2 && reach < INFINITY; ring++) {
+        reach = vn_tube_grid_visit_ring(&g->grid, p, ring, look_for_segment, &l);
+    }
+    return l.node;
 }
 
 bool vn_places_inside(const vn_grower *g, const double p[3], double inflate) {

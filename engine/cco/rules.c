@@ -13,6 +13,9 @@
 // What a segment gets more than it needs, where there is room, so that it need not ask soon again.
 static const double RESERVE = 1.2;
 
+// By how many deviations the share of a subtree may grow.
+static const double FORESIGHT = 16;
+
 /// A segment that is to be, or one that is to become thicker, among all others.
 typedef struct tube {
     vn_cco *cco;
@@ -26,6 +29,18 @@ typedef struct tube {
     vn_grower *other;    ///< whose vessels are looked at now
     vn_status status;
 } tube;
+
+// A subtree of m terminals will not keep its share of the flow: its segments are given room to thicken with it, the
+// more the fewer there are in it and the longer the tree has still to grow. Without it, now and then vessels near
+// the root stand in each other's way for good, and half of an organ stays empty.
+static double foresight(const vn_cco *cco, const vn_grower *g, double flow) {
+    if (!cco->provident || g->fixed) {
+        return 1;
+    }
+    double ahead = log2((double)g->wanted / (g->terminals + 1));
+    double most = cbrt(1 + FORESIGHT / sqrt(fmax(flow / g->terminal_flow, 1)));
+    return 1 + (most - 1) * fmin(ahead, 1);
+}
 
 static bool is_at(const vn_vessel *v, int32_t node, int32_t end) {
     return end >= 0 && (node == end || v->parent == end);
@@ -50,7 +65,8 @@ static double radius_now(const vn_cco *cco, const vn_grower *g, int32_t node) {
 // Whether the other vessel can do with a cap of @p left. What it loses is taken once everybody has agreed:
 // the cells that are being looked through hold it.
 static bool can_squeeze(tube *t, int32_t node, double left) {
-    if (t->other->fixed || radius_now(t->cco, t->other, node) * (1 + 2e-7) > left) {
+    double wide = (1 + 2e-7) * foresight(t->cco, t->other, vn_vessel_of(t->other, node)->flow);
+    if (t->other->fixed || wide * radius_now(t->cco, t->other, node) > left) {
         return false;
     }
     t->status = vn_array_push(&t->cco->squeezes, ((vn_squeeze){t->other, node, left}));
@@ -116,11 +132,12 @@ static bool is_clear_of_border(const vn_cco *cco, const double a[3], const doubl
     }
 }
 
-// A segment from a root begins on the border: only its axis has to be inside.
+// A segment from a root begins on the border: only its axis has to be inside, and all of its lower end.
 static bool is_inside(tube *t, bool stem) {
     const vn_cco *cco = t->cco;
     if (stem) {
-        return vn_domain_sees(cco->def.domain, t->a, t->b);
+        return vn_domain_sees(cco->def.domain, t->a, t->b) &&
+               is_clear_of_border(cco, t->b, t->b, t->radius + cco->def.border_distance);
     }
     if (is_clear_of_border(cco, t->a, t->b, t->room + cco->def.border_distance)) {
         return true;
@@ -163,7 +180,7 @@ static void lay_out(vn_cco *cco, vn_grower *g, const vn_plan *plan, plan_tubes *
         tube *t = &out->tubes[i];
         *t = (tube){.cco = cco, .g = g, .a = ends[i][0], .b = ends[i][1], .node = -1, .cut = plan->node};
         memcpy(t->ends, nodes[i], sizeof t->ends);
-        t->radius = plan->radius[i];
+        t->radius = plan->radius[i] * foresight(cco, g, plan->flow[i]);
         out->length[i] = sqrt(vn_distance2(t->a, t->b));
     }
 }
@@ -284,7 +301,7 @@ static bool passes_planned(tube *t, vn_plan *plan, const plan_tubes *planned) {
         double distance = sqrt(vn_segment_segment_distance2(t->a, t->b, new->a, new->b)) * (1 - 1e-9);
         if (distance - plan->caps[i] > t->radius) {
             t->room = fmin(t->room, distance - plan->caps[i]);
-        } else if (distance - plan->radius[i] > t->radius) {
+        } else if (distance - new->radius > t->radius) {
             t->room = t->radius;
             plan->caps[i] = distance - t->radius;
         } else {

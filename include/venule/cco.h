@@ -38,6 +38,7 @@ typedef struct vn_cco_def {
     double threshold;       ///< what it is multiplied by then; above 0, below 1; default 0.9
     double spacing;         ///< of terminals from vessels, in units of (15); above 0; default 1
     int32_t candidates;     ///< nearest segments that are tried first; doubled while none will do; default 20
+    int32_t most_candidates; ///< but no more than these; default 640, beyond which next to nothing is ever found
     int32_t redraws;        ///< terminals drawn anew before the tree counts as full; default 200
     int bifurcation;        ///< 0 "least": the point of least volume; 1 "kamiya": Equations 8 to 13 alone; 2
                             ///< "ceres": these with (12) handed to Ceres' tiny solver
