@@ -13,6 +13,7 @@ static const vn_cco_def cco_default = {.terminals = 1000,
                                        .candidates = 20,
                                        .most_candidates = 640,
                                        .redraws = 200,
+                                       .foresight = -1,
                                        .growing_domain = true};
 
 static const vn_field cco_fields[] = {
@@ -36,6 +37,10 @@ static const vn_field cco_fields[] = {
      "but no more than these for one terminal, which is then drawn anew"},
     {"redraws", VN_I32, 0, offsetof(vn_cco_def, redraws), 0, 100000000, "terminals", NULL,
      "terminals drawn anew before the domain counts as full"},
+    {"foresight", VN_F64, VN_OPTIONAL, offsetof(vn_cco_def, foresight), 0, 100, "", NULL,
+     "room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + "
+     "foresight / √m "
+     "times its share of the flow; left out: 2, and 0 for a list of terminals"},
     {"bifurcation", VN_CHOICE, 0, offsetof(vn_cco_def, bifurcation), 0, 0, "", "least|kamiya|ceres",
      "the bifurcation point: of least volume; by Equations 8 to 13 alone; or these with the system (12) "
      "solved by Ceres"},
@@ -116,6 +121,7 @@ vn_status vn_cco_create(vn_cco **out, const vn_cco_def *def) {
     }
     cco->def = *def;
     cco->def.terminals = def->list != NULL ? def->list_count : def->terminals;
+    cco->def.foresight = def->foresight >= 0 ? def->foresight : def->list != NULL ? 0 : 2;
     cco->def.tries = def->tries > 0 ? def->tries : def->placement == VN_PLACE_TERMINALS ? 1000 : 100;
     cco->def.domain = vn_domain_retain(def->domain);
     cco->part = vn_domain_retain(def->domain);
@@ -544,6 +550,7 @@ static vn_status add_random(vn_cco *cco, vn_grower *g, int32_t tree) {
         bool done;
         VN_TRY(draw_terminal(cco, g, tree, p));
         VN_TRY(flow_at(g, p, &flow));
+        cco->patient = i < cco->def.redraws / 4 && cco->def.foresight > 0;
         VN_TRY(vn_connect(cco, g, p, flow, &done));
         if (done) {
             return VN_OK;

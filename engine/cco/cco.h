@@ -80,7 +80,8 @@ struct vn_cco {
     int dim;
     double low[3], high[3]; ///< of everything
     vn_domain *part;        ///< where terminals fall now; the domain itself or a part
-    bool provident; ///< vessels are to have room to thicken
+    bool patient;           ///< another terminal will be drawn if this one does not fit well
+    bool provident;         ///< vessels are to have room to thicken
     VN_ARRAY(vn_grower) growers;
     VN_ARRAY(vn_squeeze) squeezes; ///< working memory of rules.c
 };
@@ -135,7 +136,7 @@ typedef struct vn_plan {
     double terminal[3];
     double radius[3]; ///< of the upper, the lower and the new segment, for the tree's size now; [2] alone of
                       ///< a first
-    double flow[3];     ///< through them
+    double flow[3];   ///< through them
     vn_branch branch; ///< that hangs from `upper` then
     double caps[3];   ///< found by vn_rules_judge()
 } vn_plan;

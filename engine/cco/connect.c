@@ -189,8 +189,9 @@ static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], dou
     if (g->candidates.count > 1) {
         qsort(g->candidates.data, (size_t)g->candidates.count, sizeof *g->candidates.data, by_volume);
     }
-    for (int32_t i = 0; i < 2 * g->candidates.count && !*done; i++) {
-        cco->provident = i < g->candidates.count;
+    int32_t rounds = cco->patient || cco->def.foresight == 0 ? 1 : 2;
+    for (int32_t i = 0; i < rounds * g->candidates.count && !*done; i++) {
+        cco->provident = i < g->candidates.count && cco->def.foresight > 0;
         vn_candidate *c = &g->candidates.data[i % g->candidates.count];
         vn_plan plan;
         vn_verdict verdict = VN_SHORT;
@@ -210,6 +211,8 @@ static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], dou
 
 static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
     int32_t looked = 0, count = cco->def.candidates;
+    int32_t whole = cco->def.most_candidates;
+    int32_t most = cco->patient && whole / 4 > count ? 4 * count : whole;
     for (;; count = count > INT32_MAX / 2 ? INT32_MAX : 2 * count) {
         int32_t all = g->tree.vessels.count;
         VN_TRY(vn_places_nearest(g, terminal, count < all ? count : all));
@@ -218,7 +221,7 @@ static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3
             VN_TRY(consider(cco, g, g->nearest.data[i].node, terminal, flow));
         }
         VN_TRY(choose(cco, g, terminal, flow, done));
-        if (*done || g->nearest.count < count || count >= cco->def.most_candidates) {
+        if (*done || g->nearest.count < count || count >= most) {
             return VN_OK;
         }
         looked = g->nearest.count;

@@ -13,9 +13,6 @@
 // What a segment gets more than it needs, where there is room, so that it need not ask soon again.
 static const double RESERVE = 1.2;
 
-// By how many deviations the share of a subtree may grow.
-static const double FORESIGHT = 16;
-
 /// A segment that is to be, or one that is to become thicker, among all others.
 typedef struct tube {
     vn_cco *cco;
@@ -30,15 +27,15 @@ typedef struct tube {
     vn_status status;
 } tube;
 
-// A subtree of m terminals will not keep its share of the flow: its segments are given room to thicken with it, the
-// more the fewer there are in it and the longer the tree has still to grow. Without it, now and then vessels near
-// the root stand in each other's way for good, and half of an organ stays empty.
+// A subtree of m terminals will not keep its share of the flow: its segments are given room to thicken with
+// it, the more the fewer there are in it and the longer the tree has still to grow. Without it, now and then
+// vessels near the root stand in each other's way for good, and half of an organ stays empty.
 static double foresight(const vn_cco *cco, const vn_grower *g, double flow) {
     if (!cco->provident || g->fixed) {
         return 1;
     }
     double ahead = log2((double)g->wanted / (g->terminals + 1));
-    double most = cbrt(1 + FORESIGHT / sqrt(fmax(flow / g->terminal_flow, 1)));
+    double most = cbrt(1 + cco->def.foresight / sqrt(fmax(flow / g->terminal_flow, 1)));
     return 1 + (most - 1) * fmin(ahead, 1);
 }
 
