@@ -363,7 +363,8 @@ static vn_status check_elsewhere(const vn_cco *cco, const double root[3]) {
     double p[3] = {root[0], root[1], cco->dim == 3 ? root[2] : 0};
     for (int32_t i = 0; i < cco->growers.count; i++) {
         const vn_grower *g = &cco->growers.data[i];
-        if (vn_places_distance(g, p, false) == 0 ||
+        int32_t node;
+        if (vn_places_seek(g, p, VN_SEEK_AXIS, &node) == 0 ||
             vn_places_inside(g, p, vn_cco_inflate(cco, g->terminals))) {
             return vn_fail(VN_INVALID, "cco.root at (%g, %g, %g) is in a vessel of another tree; move it",
                            p[0], p[1], p[2]);
@@ -486,17 +487,26 @@ typedef struct draw {
     const vn_grower *g;
 } draw;
 
-static double distance_to_tree(const double p[3], void *payload) {
+static bool keeps_from_terminals(const draw *d) {
+    return d->cco->def.placement == VN_PLACE_TERMINALS;
+}
+
+static double distance_to_tree(const double p[3], int32_t *vessel, void *payload) {
     const draw *d = payload;
-    return vn_places_distance(d->g, p, d->cco->def.placement == VN_PLACE_TERMINALS);
+    return vn_places_seek(d->g, p, keeps_from_terminals(d) ? VN_SEEK_TERMINAL : VN_SEEK_AXIS, vessel);
+}
+
+static double distance_to_vessel(const double p[3], int32_t vessel, void *payload) {
+    const draw *d = payload;
+    return vn_places_distance_to(d->g, p, vessel, keeps_from_terminals(d));
 }
 
 // Less than any vessel to here would need: with the whole drop of pressure at the nearest segment's upper
 // end, and half the way. A terminal nearer to the border than that cannot be connected, and trying it takes
 // longest.
 static double least_radius(const vn_cco *cco, const vn_grower *g, const double p[3]) {
-    double distance = vn_places_distance(g, p, false);
-    int32_t node = vn_places_nearest_one(g, p);
+    int32_t node;
+    double distance = vn_places_seek(g, p, VN_SEEK_SEGMENT, &node);
     if (node < 0) {
         return 0;
     }
@@ -526,6 +536,7 @@ static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, do
                              .factor = cco->def.threshold,
                              .tries = cco->def.tries,
                              .distance = distance_to_tree,
+                             .distance_to = distance_to_vessel,
                              .refuse = is_taken,
                              .payload = &d};
     vn_rng rng = {.seed = (uint64_t)cco->def.seed,

@@ -105,10 +105,15 @@ vn_status vn_places_insert(vn_grower *g, int32_t node);
 void vn_places_remove(vn_grower *g, int32_t node);
 /// Set a segment's cap; slack is to be settled by the caller.
 vn_status vn_places_set_cap(vn_grower *g, int32_t node, double cap);
-/// The distance from @p p to the nearest vessel's axis; or, with @p terminals, to the nearest terminal.
-double vn_places_distance(const vn_grower *g, const double p[3], bool terminals);
-/// The node of the nearest segment, or -1 while there is none.
-int32_t vn_places_nearest_one(const vn_grower *g, const double p[3]);
+typedef enum vn_seek {
+    VN_SEEK_AXIS,     ///< of any vessel; a root that has none yet counts
+    VN_SEEK_SEGMENT,  ///< roots do not count
+    VN_SEEK_TERMINAL, ///< and a root that has none yet
+} vn_seek;
+/// The distance from @p p to the nearest, and its node; INFINITY and -1 when there is none.
+double vn_places_seek(const vn_grower *g, const double p[3], vn_seek seek, int32_t *node);
+/// The distance to the axis of one vessel; or, with @p terminals, to its lower end.
+double vn_places_distance_to(const vn_grower *g, const double p[3], int32_t node, bool terminals);
 /// Whether @p p is in a vessel of a tree inflated by @p inflate.
 bool vn_places_inside(const vn_grower *g, const double p[3], double inflate);
 /// Fill `nearest` with the @p count segments nearest to @p p, nearest first.

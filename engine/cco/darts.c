@@ -24,6 +24,7 @@ static double cell_volume(const vn_darts *darts, double side) {
     return darts->dim == 3 ? side * side * side : side * side;
 }
 
+// The same numbers as box_of() gives: the sides are powers of two of one another.
 static box child_box(const vn_darts *darts, const box *b, int child) {
     box c = {.side = b->side / 2, .level = b->level + 1};
     for (int k = 0; k < 3; k++) {
@@ -36,18 +37,18 @@ static box outermost(const vn_darts *darts) {
     return (box){{darts->low[0], darts->low[1], darts->low[2]}, darts->side, 0};
 }
 
-static box box_of(const vn_darts *darts, int32_t cell) {
-    int32_t way[VN_DART_LEVELS];
-    int depth = 0;
-    const vn_dart_cell *cells = darts->cells.data;
-    for (; cells[cell].parent >= 0; cell = cells[cell].parent) {
-        way[depth++] = cell - cells[cells[cell].parent].first_child;
-    }
-    box b = outermost(darts);
-    while (depth > 0) {
-        b = child_box(darts, &b, way[--depth]);
+static box box_of(const vn_darts *darts, int32_t cell, int level) {
+    uint64_t at = darts->cells.data[cell].at;
+    box b = {.side = darts->side / (double)(1 << level), .level = level};
+    for (int k = 0; k < 3; k++) {
+        b.low[k] = darts->low[k] + (double)(at >> (20 * k) & 0xFFFFF) * b.side;
     }
     return b;
+}
+
+static uint64_t child_at(uint64_t at, int child) {
+    return 2 * at +
+           ((uint64_t)(child & 1) | (uint64_t)(child >> 1 & 1) << 20 | (uint64_t)(child >> 2 & 1) << 40);
 }
 
 static void middle_of(const vn_darts *darts, const box *b, double p[3]) {
@@ -77,7 +78,7 @@ static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
     int class = class_of(darts, c->bound);
     vn_dart_bin *bin = bin_of(darts, class, b->level);
     VN_TRY(vn_array_push(&bin->cells, cell));
-    c->place = bin->cells.count - 1;
+    c->link = bin->cells.count - 1;
     account(darts, class, c, b->side, 1);
     return VN_OK;
 }
@@ -87,9 +88,9 @@ static void take(vn_darts *darts, int32_t cell, const box *b) {
     int class = class_of(darts, c->bound);
     vn_dart_bin *bin = bin_of(darts, class, b->level);
     int32_t last = bin->cells.data[--bin->cells.count];
-    bin->cells.data[c->place] = last;
-    darts->cells.data[last].place = c->place;
-    c->place = -1;
+    bin->cells.data[c->link] = last;
+    darts->cells.data[last].link = c->link;
+    c->link = -1;
     account(darts, class, c, b->side, -1);
     if (bin->cells.count == 0) { // what rounding left of the sums goes when a class is empty
         bool empty = true;
@@ -108,7 +109,7 @@ static float round_up(double value) {
 static vn_status set_bound(vn_darts *darts, int32_t cell, const box *b, double bound) {
     vn_dart_cell *c = &darts->cells.data[cell];
     bool same = class_of(darts, c->bound) == class_of(darts, round_up(bound));
-    if (same || c->place < 0) {
+    if (same || c->link < 0) {
         c->bound = round_up(bound);
         return VN_OK;
     }
@@ -155,9 +156,9 @@ static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) 
     return VN_OK;
 }
 
-static vn_status add_cell(vn_darts *darts, int32_t parent, const box *b, double bound) {
+static vn_status add_cell(vn_darts *darts, uint64_t code, int32_t witness, const box *b, double bound) {
     int32_t at = darts->cells.count;
-    vn_dart_cell cell = {parent, -1, -1, round_up(bound), 0};
+    vn_dart_cell cell = {code, -1, witness, round_up(bound), 0};
     VN_TRY(measure_mass(darts, b, &cell.mass));
     VN_TRY(vn_array_push(&darts->cells, cell));
     return cell.mass > 0 ? put(darts, at, b) : VN_OK;
@@ -199,7 +200,7 @@ vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, vn_cc
     }
     VN_TRY(weigh_region(darts, rng));
     box b = outermost(darts);
-    return add_cell(darts, -1, &b, 2 * half_diagonal(darts, darts->side));
+    return add_cell(darts, 0, -1, &b, 2 * half_diagonal(darts, darts->side));
 }
 
 void vn_darts_free(vn_darts *darts) {
@@ -213,77 +214,53 @@ void vn_darts_free(vn_darts *darts) {
     *darts = (vn_darts){0};
 }
 
-static double farthest(const vn_darts *darts, const box *b, const double p[3]) {
-    double square = 0;
-    for (int k = 0; k < darts->dim; k++) {
-        double away = fmax(fabs(p[k] - b->low[k]), fabs(p[k] - b->low[k] - b->side));
-        square += away * away;
+// The farthest point of a box from a segment is a corner of it: the distance to a segment is convex.
+static double farthest(const vn_darts *darts, const box *b, int32_t vessel, const vn_dart_search *search) {
+    double most = 0;
+    for (int i = 0; i < children_of(darts); i++) {
+        double corner[3];
+        for (int k = 0; k < 3; k++) {
+            corner[k] = b->low[k] + (k < darts->dim && (i >> k & 1) ? b->side : 0);
+        }
+        most = fmax(most, search->distance_to(corner, vessel, search->payload));
     }
-    return sqrt(square);
+    return most;
 }
 
-static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const double p[3], double distance) {
-    double bound = darts->cells.data[cell].bound;
+static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search) {
+    vn_dart_cell whole = darts->cells.data[cell];
     int32_t first = darts->cells.count;
     VN_TRY(vn_array_reserve(&darts->cells, (int64_t)first + children_of(darts)));
     take(darts, cell, b);
-    darts->cells.data[cell].first_child = first;
+    darts->cells.data[cell].link = ~first;
     for (int i = 0; i < children_of(darts); i++) {
         box c = child_box(darts, b, i);
-        VN_TRY(add_cell(darts, cell, &c, fmin(bound, distance + farthest(darts, &c, p))));
+        double bound = fmin(whole.bound, farthest(darts, &c, whole.witness, search));
+        VN_TRY(add_cell(darts, child_at(whole.at, i), whole.witness, &c, bound));
     }
     return VN_OK;
 }
 
-// A dart in this cell was in vain: what it has shown bounds the cell, or its parts. Cells much smaller than
-// the threshold would show little more, and there would be many.
-static vn_status learn(vn_darts *darts, int32_t cell, const double p[3], double distance, double threshold) {
-    box b = box_of(darts, cell);
-    double bound = fmin(darts->cells.data[cell].bound, distance + farthest(darts, &b, p));
-    if (bound > threshold && half_diagonal(darts, b.side) > 0.8 * threshold && b.level < VN_DART_LEVELS - 1) {
-        return divide(darts, cell, &b, p, distance);
-    }
-    return set_bound(darts, cell, &b, bound);
-}
+// Cells much smaller than the threshold would tell little more, and there would be many.
+static const double SMALLEST = 0.8;
 
-// Of the classes that reach above the threshold, a leaf at random, as likely as it is large.
-static int32_t pick(const vn_darts *darts, int last, double volume, vn_rng *rng) {
-    double at = vn_rng_uniform(rng, 0, volume);
-    int32_t found = -1;
-    for (int class = 0; class <= last; class ++) {
-        if (at >= darts->volume[class]) {
-            at -= darts->volume[class];
-            continue;
-        }
-        double side = darts->side;
-        for (int level = 0; level < VN_DART_LEVELS; level++, side /= 2) {
-            const vn_dart_bin *bin = bin_of(darts, class, level);
-            double one = cell_volume(darts, side), all = one * bin->cells.count;
-            if (bin->cells.count > 0) {
-                int32_t i = (int32_t)fmin(floor(at / one), bin->cells.count - 1);
-                found = bin->cells.data[i];
-            }
-            if (at < all) {
-                return found;
-            }
-            at -= all;
-        }
-        return found; // rounding
+// A dart in this cell was in vain: the vessel that refused it bounds the cell, or its parts.
+static vn_status learn(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search,
+                       double threshold) {
+    vn_dart_cell *c = &darts->cells.data[cell];
+    double bound = fmin(c->bound, farthest(darts, b, c->witness, search));
+    if (bound > threshold && half_diagonal(darts, b->side) > SMALLEST * threshold &&
+        b->level < VN_DART_LEVELS - 1) {
+        return divide(darts, cell, b, search);
     }
-    return found;
-}
-
-static void point_in(const vn_darts *darts, int32_t cell, vn_rng *rng, double p[3]) {
-    box b = box_of(darts, cell);
-    for (int k = 0; k < 3; k++) {
-        p[k] = k < darts->dim ? vn_rng_uniform(rng, b.low[k], b.low[k] + b.side) : 0;
-    }
+    return set_bound(darts, cell, b, bound);
 }
 
 /// What may still be hit at a threshold.
 typedef struct live {
     int last; ///< class
     double mass, volume;
+    double skip; ///< log of the chance that a dart anywhere misses it
 } live;
 
 static live live_above(const vn_darts *darts, double threshold) {
@@ -292,34 +269,83 @@ static live live_above(const vn_darts *darts, double threshold) {
         l.mass += darts->mass[class];
         l.volume += darts->volume[class];
     }
+    double part = l.volume > 0 ? l.mass / darts->total : 0;
+    l.skip = part < 1 ? log1p(-part) : -INFINITY;
     return l;
 }
 
 // Darts in vain before one falls into live cells: geometrically distributed.
-static double skipped(const vn_darts *darts, const live *l, vn_rng *rng) {
-    double part = l->mass / darts->total;
-    if (part >= 1) {
-        return 0;
+static double skipped(const live *l, vn_rng *rng) {
+    double chance = log1p(-vn_rng_uniform(rng, 0, 1));
+    return l->skip == 0 ? INFINITY : floor(chance / l->skip);
+}
+
+/// A leaf that was picked.
+typedef struct leaf {
+    int32_t cell; ///< -1: none
+    box box;
+} leaf;
+
+static leaf leaf_in(const vn_darts *darts, const vn_dart_bin *bin, int level, int32_t i) {
+    int32_t cell = bin->cells.data[i < bin->cells.count ? i : bin->cells.count - 1];
+    return (leaf){cell, box_of(darts, cell, level)};
+}
+
+// One of a class, by how far @p at is along the volumes of its levels.
+static leaf pick_in(const vn_darts *darts, int class, double at) {
+    leaf found = {.cell = -1};
+    double side = darts->side;
+    for (int level = 0; level < VN_DART_LEVELS; level++, side /= 2) {
+        const vn_dart_bin *bin = bin_of(darts, class, level);
+        double one = cell_volume(darts, side), all = one * bin->cells.count;
+        if (bin->cells.count > 0) {
+            found = leaf_in(darts, bin, level, (int32_t)(at / one));
+        }
+        if (at < all) {
+            break;
+        }
+        at -= all;
     }
-    return part <= 0 || l->volume <= 0 ? INFINITY : floor(log1p(-vn_rng_uniform(rng, 0, 1)) / log1p(-part));
+    return found; // the last, where rounding leads beyond it
+}
+
+// Of the classes that reach above the threshold, a leaf at random, as likely as it is large.
+static leaf pick(const vn_darts *darts, const live *l, vn_rng *rng) {
+    double at = vn_rng_uniform(rng, 0, l->volume);
+    for (int class = 0; class <= l->last; class ++) {
+        if (at < darts->volume[class]) {
+            return pick_in(darts, class, at);
+        }
+        at -= darts->volume[class];
+    }
+    return (leaf){.cell = -1};
+}
+
+static void point_in(const vn_darts *darts, const box *b, vn_rng *rng, double p[3]) {
+    for (int k = 0; k < 3; k++) {
+        p[k] = k < darts->dim ? vn_rng_uniform(rng, b->low[k], b->low[k] + b->side) : 0;
+    }
 }
 
 // One dart into live cells that lands in the region.
-static vn_status land(vn_darts *darts, const live *l, vn_rng *rng, int32_t *cell, double p[3]) {
+static vn_status land(const vn_darts *darts, const live *l, vn_rng *rng, leaf *at, double p[3]) {
     enum { MOST = 100000 };
-    for (int i = 0; i < MOST; i++) {
-        double density;
-        *cell = pick(darts, l->last, l->volume, rng);
-        if (*cell < 0) {
+    at->cell = -1;
+    for (int i = 0; i < MOST && l->volume > 0; i++) {
+        double density = 1;
+        leaf found = pick(darts, l, rng);
+        if (found.cell < 0) {
             return VN_OK;
         }
-        point_in(darts, *cell, rng, p);
-        VN_TRY(density_at(darts, p, &density));
-        if (density > 0 && (density >= 1 || vn_rng_uniform(rng, 0, 1) < density)) {
+        point_in(darts, &found.box, rng, p);
+        if (darts->cells.data[found.cell].mass < 1 || darts->density != NULL) {
+            VN_TRY(density_at(darts, p, &density));
+        }
+        if (density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density)) {
+            *at = found;
             return VN_OK;
         }
     }
-    *cell = -1;
     return VN_OK;
 }
 
@@ -338,31 +364,53 @@ static double lowest(const vn_darts *darts, double threshold) {
     return threshold * pow(darts->mean, 1.0 / darts->dim);
 }
 
+// Whether the dart sticks; what refused it is remembered, and asked first next time. `news` says that cells
+// changed.
+static vn_status try_dart(vn_darts *darts, const vn_dart_search *search, const leaf *at, const double p[3],
+                          double threshold, bool *sticks, bool *news) {
+    vn_dart_cell *c = &darts->cells.data[at->cell];
+    double here = threshold;
+    *sticks = *news = false;
+    VN_TRY(local_threshold(darts, p, &here));
+    if (c->witness >= 0 && search->distance_to(p, c->witness, search->payload) <= here) {
+        return VN_OK;
+    }
+    double distance = search->distance(p, &c->witness, search->payload);
+    if (distance > here) {
+        *sticks = !search->refuse(p, search->payload);
+        return VN_OK;
+    }
+    *news = true;
+    return learn(darts, at->cell, &at->box, search, lowest(darts, threshold));
+}
+
 vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *rng, double p[3],
                          int64_t *darts_thrown) {
     double threshold = search->threshold, thrown = 0;
+    live l = live_above(darts, lowest(darts, threshold));
     while (threshold > 1e-6 * darts->side) {
-        live l = live_above(darts, lowest(darts, threshold));
-        thrown += skipped(darts, &l, rng) + 1;
+        thrown += skipped(&l, rng) + 1;
         if (thrown > search->tries) {
             *darts_thrown += search->tries;
             threshold *= search->factor;
             thrown = 0;
+            l = live_above(darts, lowest(darts, threshold));
             continue;
         }
-        int32_t cell;
-        double here = threshold;
-        VN_TRY(land(darts, &l, rng, &cell, p));
-        if (cell < 0) {
+        leaf at;
+        bool sticks, news;
+        VN_TRY(land(darts, &l, rng, &at, p));
+        if (at.cell < 0) {
             continue;
         }
-        VN_TRY(local_threshold(darts, p, &here));
-        double distance = search->distance(p, search->payload);
-        if (distance > here && !search->refuse(p, search->payload)) {
+        VN_TRY(try_dart(darts, search, &at, p, threshold, &sticks, &news));
+        if (sticks) {
             *darts_thrown += (int64_t)thrown;
             return VN_OK;
         }
-        VN_TRY(learn(darts, cell, p, distance, lowest(darts, threshold)));
+        if (news) {
+            l = live_above(darts, lowest(darts, threshold));
+        }
     }
     return vn_fail(VN_INFEASIBLE, "there is no room left between the vessels");
 }
@@ -386,11 +434,11 @@ static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news 
     if (nearest - half - n->moved > c->bound) {
         return VN_OK; // another vessel is nearer to all of it
     }
-    if (c->first_child < 0) {
+    if (c->link >= -1) {
         return set_bound(darts, cell, b, fmin(c->bound + n->moved, nearest + half));
     }
     float bound = 0;
-    int32_t first = c->first_child;
+    int32_t first = ~c->link;
     for (int i = 0; i < children_of(darts); i++) {
         box child = child_box(darts, b, i);
         VN_TRY(spread(darts, first + i, &child, n));

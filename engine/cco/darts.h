@@ -12,13 +12,15 @@
 #include "venule/cco.h"
 
 typedef struct vn_dart_cell {
-    int32_t parent, first_child; ///< -1: a leaf
-    int32_t place;               ///< of a leaf, in its bin; -1: nothing of the region is in it
+    uint64_t at; ///< which cell of its level, 20 bits for each direction
+    int32_t
+        link; ///< of a leaf, its place in its bin, or -1 where nothing of the region is; else ~first child
+    int32_t witness; ///< the vessel that last refused a dart here, or -1
     float bound;
     float mass; ///< part of it that is in the region, weighed by density
 } vn_dart_cell;
 
-enum { VN_DART_LEVELS = 24, VN_DART_CLASSES = 200 };
+enum { VN_DART_LEVELS = 20, VN_DART_CLASSES = 200 };
 
 typedef struct vn_dart_bin {
     VN_ARRAY(int32_t) cells;
@@ -38,20 +40,19 @@ typedef struct vn_darts {
     double volume[VN_DART_CLASSES];
 } vn_darts;
 
-/// How far a point is from what it is to keep away from; and whether it may not be taken anyway.
-typedef double vn_dart_distance_fn(const double p[3], void *payload);
-typedef bool vn_dart_refuse_fn(const double p[3], void *payload);
-
 vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, vn_cco_value_fn *density,
                         void *payload, vn_rng *rng);
 void vn_darts_free(vn_darts *darts);
 
-/// How a terminal is looked for: after so many tries in vain, the threshold is multiplied by `factor`.
+/// What terminals keep away from, and how one is looked for.
 typedef struct vn_dart_search {
-    double threshold, factor;
+    double threshold, factor; ///< after so many tries in vain the threshold is multiplied by the factor
     int32_t tries;
-    vn_dart_distance_fn *distance;
-    vn_dart_refuse_fn *refuse;
+    /// The distance from @p p to the nearest vessel, whose number is @p vessel then.
+    double (*distance)(const double p[3], int32_t *vessel, void *payload);
+    double (*distance_to)(const double p[3], int32_t vessel, void *payload);
+    /// Whether a point far enough away may not be taken all the same.
+    bool (*refuse)(const double p[3], void *payload);
     void *payload;
 } vn_dart_search;
 /// A random point; @p darts_thrown counts those that were skipped too. VN_INFEASIBLE when none is found at a

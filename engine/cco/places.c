@@ -77,25 +77,46 @@ vn_status vn_places_update(const vn_cco *cco, vn_grower *g) {
     return list_thick(cco, g);
 }
 
-/// The nearest axis or terminal so far, or whether the point is in a vessel.
+double vn_places_distance_to(const vn_grower *g, const double p[3], int32_t node, bool terminals) {
+    const vn_vessel *v = vn_vessel_of(g, node);
+    return terminals ? sqrt(vn_distance2(p, v->p))
+                     : sqrt(vn_point_segment_distance2(p, upper_end(g, node), v->p));
+}
+
+/// The nearest axis, terminal or segment so far; or whether the point is in a vessel.
 typedef struct look {
     const vn_grower *g;
     const double *p;
-    bool terminals;
+    vn_seek seek;
     double inflate, distance2;
-    int32_t node; ///< the nearest, the lower of equals; roots are none
+    int32_t node; ///< the lower of equals
 } look;
 
 static bool look_at(int32_t node, void *payload) {
     look *l = payload;
     const vn_vessel *v = vn_vessel_of(l->g, node);
-    double axis2 = vn_point_segment_distance2(l->p, upper_end(l->g, node), v->p);
-    if (!l->terminals) {
-        l->distance2 = fmin(l->distance2, axis2);
-    } else if (v->first_child < 0) {
-        l->distance2 = fmin(l->distance2, vn_distance2(l->p, v->p));
+    if ((l->seek == VN_SEEK_TERMINAL && v->first_child >= 0) ||
+        (l->seek == VN_SEEK_SEGMENT && v->parent < 0)) {
+        return true;
+    }
+    double distance2 = l->seek == VN_SEEK_TERMINAL
+                           ? vn_distance2(l->p, v->p)
+                           : vn_point_segment_distance2(l->p, upper_end(l->g, node), v->p);
+    if (distance2 < l->distance2 || (distance2 == l->distance2 && node < l->node)) {
+        l->distance2 = distance2;
+        l->node = node;
     }
     return true;
+}
+
+double vn_places_seek(const vn_grower *g, const double p[3], vn_seek seek, int32_t *node) {
+    look l = {.g = g, .p = p, .seek = seek, .distance2 = INFINITY, .node = -1};
+    double reach = 0;
+    for (int32_t ring = 0; reach * reach < l.distance2 && reach < INFINITY; ring++) {
+        reach = vn_tube_grid_visit_ring(&g->grid, p, ring, look_at, &l);
+    }
+    *node = l.node;
+    return sqrt(l.distance2);
 }
 
 static bool look_inside(int32_t node, void *payload) {
@@ -112,39 +133,9 @@ static bool look_inside(int32_t node, void *payload) {
     return axis2 > radius * radius;
 }
 
-static bool look_for_segment(int32_t node, void *payload) {
-    look *l = payload;
-    const vn_vessel *v = vn_vessel_of(l->g, node);
-    double distance2 =
-        v->parent >= 0 ? vn_point_segment_distance2(l->p, upper_end(l->g, node), v->p) : INFINITY;
-    if (distance2 < l->distance2 || (distance2 == l->distance2 && node < l->node)) {
-        l->distance2 = distance2;
-        l->node = node;
-    }
-    return true;
-}
-
-int32_t vn_places_nearest_one(const vn_grower *g, const double p[3]) {
-    look l = {.g = g, .p = p, .distance2 = INFINITY, .node = -1};
-    double reach = 0;
-    for (int32_t ring = 0; reach * reach < l.distance2 && reach < INFINITY; ring++) {
-        reach = vn_tube_grid_visit_ring(&g->grid, p, ring, look_for_segment, &l);
-    }
-    return l.node;
-}
-
 bool vn_places_inside(const vn_grower *g, const double p[3], double inflate) {
     look l = {.g = g, .p = p, .inflate = inflate};
     return !vn_places_visit(g, p, p, 0, look_inside, &l);
-}
-
-double vn_places_distance(const vn_grower *g, const double p[3], bool terminals) {
-    look l = {.g = g, .p = p, .terminals = terminals, .distance2 = INFINITY};
-    double reach = 0;
-    for (int32_t ring = 0; reach * reach < l.distance2 && reach < INFINITY; ring++) {
-        reach = vn_tube_grid_visit_ring(&g->grid, p, ring, look_at, &l);
-    }
-    return sqrt(l.distance2);
 }
 
 /// The nearest segments so far, in order: they are few.
