@@ -88,6 +88,31 @@ void *vn_new_block(size_t size) {
     return block;
 }
 
+// The size stands before the block.
+typedef union block_head {
+    size_t size;
+    max_align_t aligned;
+} block_head;
+
+void *vn_sized_block(size_t size) {
+    if (size > SIZE_MAX - sizeof(block_head)) {
+        return NULL;
+    }
+    block_head *head = vn_resize(NULL, 0, size + sizeof *head);
+    if (head == NULL) {
+        return NULL;
+    }
+    head->size = size + sizeof *head;
+    return head + 1;
+}
+
+void vn_free_sized(void *block) {
+    if (block != NULL) {
+        block_head *head = (block_head *)block - 1;
+        vn_resize(head, head->size, 0);
+    }
+}
+
 uint64_t vn_next_serial(void) {
     return atomic_fetch_add(&vn_memory.serial, 1) + 1;
 }

@@ -13,6 +13,11 @@ void *vn_new_block(size_t size);
 #define VN_NEW(T) ((T *)vn_new_block(sizeof(T)))
 #define VN_DELETE(object) ((void)vn_resize((object), (object) != NULL ? sizeof *(object) : 0, 0))
 
+/// A block that knows its own size, for libraries that free without saying it; or NULL. Freed by
+/// vn_free_sized(), which accepts NULL.
+void *vn_sized_block(size_t size);
+void vn_free_sized(void *block);
+
 /// A copy of @p text, or NULL; freed by vn_free_text(), which accepts NULL.
 char *vn_copy_text(const char *text);
 void vn_free_text(char *text);

@@ -19,29 +19,18 @@ typedef struct png_job {
     bool opaque;
 } png_job;
 
-// libpng and zlib free blocks without saying how large they are: the size stands before each block.
-typedef union block_head {
-    size_t size;
-    max_align_t aligned;
-} block_head;
-
 static png_voidp png_take(png_structp png, png_alloc_size_t size) {
-    block_head *head = vn_resize(NULL, 0, size + sizeof *head);
-    if (head == NULL) {
+    void *block = vn_sized_block(size);
+    if (block == NULL) {
         png_job *job = png_get_mem_ptr(png);
         job->refused = size;
-        return NULL;
     }
-    head->size = size + sizeof *head;
-    return head + 1;
+    return block;
 }
 
 static void png_give_back(png_structp png, png_voidp block) {
     (void)png;
-    if (block != NULL) {
-        block_head *head = (block_head *)block - 1;
-        vn_resize(head, head->size, 0);
-    }
+    vn_free_sized(block);
 }
 
 static void png_failed(png_structp png, png_const_charp message) {
