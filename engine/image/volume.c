@@ -1,6 +1,7 @@
 #include "image/volume.h"
 
 #include "base/status.h"
+#include "venule/voxels.h"
 
 #include <math.h>
 
@@ -44,4 +45,27 @@ vn_status vn_volume_init(vn_volume *volume, vn_voxel type, const int32_t size[3]
 void vn_volume_free(vn_volume *volume) {
     vn_resize(volume->data, volume->byte_size, 0);
     *volume = (vn_volume){0};
+}
+
+void vn_volume_destroy(vn_volume *volume) {
+    if (volume != NULL) {
+        vn_volume_free(volume);
+        VN_DELETE(volume);
+    }
+}
+
+void vn_volume_position(const vn_volume *volume, const int32_t voxel[3], double p[3]) {
+    for (int r = 0; r < 3; r++) {
+        const double *row = volume->to_world[r];
+        p[r] = row[0] * voxel[0] + row[1] * voxel[1] + row[2] * voxel[2] + row[3];
+    }
+}
+
+int64_t vn_volume_count(const vn_volume *volume) {
+    size_t voxels = volume->byte_size / vn_voxel_size(volume->type);
+    int64_t count = 0;
+    for (size_t i = 0; i < voxels; i++) {
+        count += vn_volume_at(volume, i) != 0;
+    }
+    return count;
 }

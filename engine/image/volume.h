@@ -7,6 +7,7 @@
 typedef enum vn_voxel {
     VN_VOXEL_U8,
     VN_VOXEL_U16,
+    VN_VOXEL_U32,
     VN_VOXEL_F32,
 } vn_voxel;
 
@@ -32,6 +33,12 @@ vn_status vn_volume_init(vn_volume *volume, vn_voxel type, const int32_t size[3]
                          const double origin[3]);
 void vn_volume_free(vn_volume *volume);
 
+/// Where the middle of a voxel is in the world.
+void vn_volume_position(const vn_volume *volume, const int32_t voxel[3], double p[3]);
+
+/// How many voxels are not 0.
+int64_t vn_volume_count(const vn_volume *volume);
+
 /// Any voxel as a number.
 static inline double vn_volume_at(const vn_volume *volume, size_t index) {
     switch (volume->type) {
@@ -39,6 +46,8 @@ static inline double vn_volume_at(const vn_volume *volume, size_t index) {
         return ((const uint8_t *)volume->data)[index];
     case VN_VOXEL_U16:
         return ((const uint16_t *)volume->data)[index];
+    case VN_VOXEL_U32:
+        return ((const uint32_t *)volume->data)[index];
     default:
         return ((const float *)volume->data)[index];
     }

@@ -10,5 +10,6 @@
 #include "venule/cco.h"
 #include "venule/network.h"
 #include "venule/output.h"
+#include "venule/voxels.h"
 
 #endif

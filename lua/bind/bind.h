@@ -41,6 +41,7 @@ extern const vnl_class vnl_attractors_class;
 extern const vnl_class vnl_influence_class;
 extern const vnl_class vnl_rng_class;
 extern const vnl_class vnl_canvas_class;
+extern const vnl_class vnl_volume_class;
 
 /// All classes, ended by NULL.
 extern const vnl_class *const vnl_classes[];
@@ -50,6 +51,7 @@ extern const vnl_function vnl_module_functions[];
 extern const vnl_function vnl_network_functions[];
 extern const vnl_function vnl_attractors_functions[];
 extern const vnl_function vnl_canvas_functions[];
+extern const vnl_function vnl_voxels_functions[];
 extern const vnl_function vnl_domain_functions[];
 extern const vnl_function vnl_growth_functions[];
 
@@ -100,6 +102,9 @@ lua_Integer vnl_check_integer(lua_State *L, int index, const char *what);
 vn_influence *vnl_check_influence(lua_State *L, int index);
 /// Read a point {x, y[, z]}; returns how many coordinates it has. @p what names it in errors.
 int vnl_read_point(lua_State *L, int index, const char *what, double p[3]);
+/// Read the field {min = …, max = …} of the table at @p index, as domain:bounds() gives it; whether it is
+/// there.
+bool vnl_read_bounds(lua_State *L, int index, const char *schema, const char *field, vn_box *box);
 /// The coordinates x, y[, z] given as arguments from @p index on, for something of @p dim dimensions.
 void vnl_check_coordinates(lua_State *L, int index, int dim, double p[3]);
 /// A number that is not a string that looks like one.
@@ -126,6 +131,14 @@ const char *vnl_push_manifest(lua_State *L);
 vn_leaf_measures *vnl_push_leaf_measures(lua_State *L);
 /// Push what was measured as a table.
 void vnl_push_leaf_table(lua_State *L, const vn_leaf_measures *measures);
+
+enum { VNL_MOST_NETWORKS = 256 };
+/// The networks of the table {name = network, …} at @p index, by alphabet; how many. Allocates nothing. The
+/// names are the table's.
+int32_t vnl_named_networks(lua_State *L, int index, const char *what, const vn_network **networks,
+                           const char **names);
+/// net:voxels{…}
+int vnl_network_voxels(lua_State *L);
 
 /// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and
 /// ipairs().

@@ -15,23 +15,14 @@ static vn_canvas *check_canvas(lua_State *L) {
 
 // The view: bounds as domain:bounds() gives them, which may bring their unit.
 static void read_view(lua_State *L, vn_canvas_def *def) {
-    if (vnl_raw_field(L, 1, "view") != LUA_TNIL) {
-        if (!lua_istable(L, -1)) {
-            vnl_fail(
-                L, "canvas.view: {min = {x, y}, max = {x, y}} expected, as domain:bounds() gives it, got %s",
-                luaL_typename(L, -1));
-        }
-        vnl_raw_field(L, -1, "min");
-        vnl_read_point(L, -1, "canvas.view.min", def->view.min);
-        vnl_raw_field(L, -2, "max");
-        vnl_read_point(L, -1, "canvas.view.max", def->view.max);
-        vnl_raw_field(L, -3, "unit");
+    if (vnl_read_bounds(L, 1, "canvas", "view", &def->view)) {
+        vnl_raw_field(L, 1, "view");
+        vnl_raw_field(L, -1, "unit");
         if (lua_type(L, -1) == LUA_TSTRING && !vnl_has(L, 1, "unit")) {
             def->unit = lua_tostring(L, -1); // held by the view's own table
         }
-        lua_pop(L, 3);
+        lua_pop(L, 2);
     }
-    lua_pop(L, 1);
 }
 
 static int make_canvas(lua_State *L) {

@@ -278,6 +278,11 @@ static const vnl_function methods[] = {
      "areoles, free ends, junctions, the hierarchy of loops, angles, distances to veins.",
      &vn_leaf_schema},
     {"scale", network_scale, "(factor: number)", NULL, "Multiply all coordinates and radii.", NULL},
+    {"voxels", vnl_network_voxels, "(options?: venule.voxels.Options): venule.Volume", NULL,
+     "The network in voxels: `net:voxels {resolution = 0.5, content = \"radius\"}:save \"radius.nii.gz\"`. "
+     "See "
+     "venule.voxels.",
+     NULL},
     {"save", network_save, "(path: string)", NULL, "Write the network as JSON.", NULL},
     {0},
 };
@@ -402,28 +407,8 @@ static int load_networks(lua_State *L) {
     return 1;
 }
 
-enum { MOST_NETWORKS = 256 };
-
-static int save_networks(lua_State *L) {
-    const char *path = check_json_path(L, 1);
-    const vn_network *networks[MOST_NETWORKS];
-    const char *names[MOST_NETWORKS];
-    int32_t count = 0;
-    lua_settop(L, 2);
-    const char *manifest = vnl_push_manifest(L);
-    if (lua_isuserdata(L, 2)) {
-        vnl_try(L, vn_network_save(vnl_check(L, 2, &vnl_network_class), path, manifest));
-        return 0;
-    }
-    luaL_checktype(L, 2, LUA_TTABLE);
-    for (lua_pushnil(L); lua_next(L, 2) != 0; lua_pop(L, 1), count++) {
-        if (lua_type(L, -2) != LUA_TSTRING || count == MOST_NETWORKS) {
-            return vnl_fail(L, "save: a table {name = network, …} of at most %d expected", MOST_NETWORKS);
-        }
-        names[count] = lua_tostring(L, -2);
-        networks[count] = vnl_check(L, -1, &vnl_network_class);
-    }
-    // lua_next() walks in an order of hashes; a file must not.
+// lua_next() walks in an order of hashes; a file must not.
+static void sort_by_name(const vn_network **networks, const char **names, int32_t count) {
     for (int32_t i = 1; i < count; i++) {
         for (int32_t j = i; j > 0 && strcmp(names[j - 1], names[j]) > 0; j--) {
             const char *name = names[j];
@@ -434,6 +419,34 @@ static int save_networks(lua_State *L) {
             networks[j - 1] = network;
         }
     }
+}
+
+int32_t vnl_named_networks(lua_State *L, int index, const char *what, const vn_network **networks,
+                           const char **names) {
+    int32_t count = 0;
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1), count++) {
+        if (lua_type(L, -2) != LUA_TSTRING || count == VNL_MOST_NETWORKS) {
+            vnl_fail(L, "%s: a table {name = network, …} of at most %d expected", what, VNL_MOST_NETWORKS);
+        }
+        names[count] = lua_tostring(L, -2);
+        networks[count] = vnl_check(L, -1, &vnl_network_class);
+    }
+    sort_by_name(networks, names, count);
+    return count;
+}
+
+static int save_networks(lua_State *L) {
+    const char *path = check_json_path(L, 1);
+    const vn_network *networks[VNL_MOST_NETWORKS];
+    const char *names[VNL_MOST_NETWORKS];
+    lua_settop(L, 2);
+    const char *manifest = vnl_push_manifest(L);
+    if (lua_isuserdata(L, 2)) {
+        vnl_try(L, vn_network_save(vnl_check(L, 2, &vnl_network_class), path, manifest));
+        return 0;
+    }
+    luaL_checktype(L, 2, LUA_TTABLE);
+    int32_t count = vnl_named_networks(L, 2, "save", networks, names);
     vnl_try(L, vn_networks_save(networks, names, count, path, manifest));
     return 0;
 }

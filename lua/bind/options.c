@@ -119,6 +119,29 @@ int vnl_read_point(lua_State *L, int index, const char *what, double p[3]) {
     return (int)count;
 }
 
+static void read_corner(lua_State *L, const char *schema, const char *field, const char *corner,
+                        double p[3]) {
+    char what[96];
+    snprintf(what, sizeof what, "%s.%s.%s", schema, field, corner);
+    vnl_raw_field(L, -1, corner);
+    vnl_read_point(L, -1, what, p);
+    lua_pop(L, 1);
+}
+
+bool vnl_read_bounds(lua_State *L, int index, const char *schema, const char *field, vn_box *box) {
+    bool given = vnl_raw_field(L, index, field) != LUA_TNIL;
+    if (given && !lua_istable(L, -1)) {
+        vnl_fail(L, "%s.%s: {min = {x, y}, max = {x, y}} expected, as domain:bounds() gives it, got %s",
+                 schema, field, luaL_typename(L, -1));
+    }
+    if (given) {
+        read_corner(L, schema, field, "min", box->min);
+        read_corner(L, schema, field, "max", box->max);
+    }
+    lua_pop(L, 1);
+    return given;
+}
+
 static void read_point(lua_State *L, const vn_schema *schema, const vn_field *field, double *slot) {
     char what[96];
     snprintf(what, sizeof what, "%s.%s", schema->name, field->name);

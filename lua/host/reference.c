@@ -270,6 +270,7 @@ static void write_all(writer *w, lua_State *L) {
     write_functions(w, vnl_network_functions, "venule", '.');
     write_functions(w, vnl_attractors_functions, "venule", '.');
     write_functions(w, vnl_canvas_functions, "venule", '.');
+    write_functions(w, vnl_voxels_functions, "venule", '.');
     write_functions(w, vnl_module_functions, "venule", '.');
     write_lua_part(L, "stubs", w->stubs);
     write_lua_part(L, "page", w->page);

@@ -3,6 +3,7 @@
 
 #include "domain/domain.h"
 #include "draw/canvas.h"
+#include "draw/tubes.h"
 #include "file/svg.h"
 #include "growth/growth.h"
 
@@ -11,7 +12,7 @@ static const vn_schema *const schemas[] = {
     &vn_extend_schema,  &vn_consume_schema,  &vn_disk_schema,       &vn_box_schema,     &vn_profile_schema,
     &vn_none_schema,    &vn_marginal_schema, &vn_isogonic_schema,   &vn_uniform_schema, &vn_rerg_schema,
     &vn_morph_schema,   &vn_canvas_schema,   &vn_fill_schema,       &vn_stroke_schema,  &vn_dots_schema,
-    &vn_text_schema,    &vn_svg_schema,
+    &vn_text_schema,    &vn_svg_schema,      &vn_voxels_schema,
 };
 enum { SCHEMAS = sizeof schemas / sizeof *schemas };
 
