@@ -1,5 +1,6 @@
 # Everything comes from Debian 12; `setup` installs the packages.
 find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenMP REQUIRED COMPONENTS C)
 find_package(LibXml2 REQUIRED)
 find_package(PNG REQUIRED)

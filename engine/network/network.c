@@ -58,6 +58,7 @@ void vn_network_destroy(vn_network *network) {
     vn_array_free(&network->orders);
     vn_array_free(&network->flow);
     vn_array_free(&network->pressure);
+    vn_array_free(&network->join_flow);
     vn_array_free(&network->sequence);
     vn_point_grid_free(&network->grid);
     vn_point_tree_free(&network->tree_of_points);

@@ -55,6 +55,8 @@ struct vn_network {
     VN_ARRAY(double) flow;     ///< of each node's edge; empty when nobody said
     VN_ARRAY(double) pressure; ///< at each node; may be empty beside `flow`
     uint64_t flow_version;
+    VN_ARRAY(double) join_flow; ///< from the ends that were given as `a`; empty when nobody said
+    uint64_t join_flow_version;
     VN_ARRAY(int32_t) sequence; ///< parents first; empty while the indices themselves are such an order
     bool unordered;             ///< an edge was split since `sequence` was made; it has room for all nodes
     bool murray;

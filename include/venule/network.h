@@ -110,7 +110,8 @@ VN_API const int32_t *vn_network_orders(const vn_network *network);
 
 /// Say what flows through each node's edge (volume by time; at a root, what enters there) and the pressure at
 /// each node; one entry a node, copied. @p pressure may be NULL: unknown. Both hold until the network next
-/// changes. VN_INVALID for numbers that are not finite.
+/// changes. What flows through joins is forgotten (vn_network_set_join_flow() comes after). VN_INVALID for
+/// numbers that are not finite.
 VN_API vn_status vn_network_set_flow(vn_network *network, const double *flow, const double *pressure);
 /// One entry a node, borrowed until the network next changes; NULL where unknown or outdated.
 VN_API const double *vn_network_flow(const vn_network *network);

@@ -6,6 +6,7 @@
 #include "venule/attractors.h"
 #include "venule/base.h"
 #include "venule/domain.h"
+#include "venule/flow.h"
 #include "venule/growth.h"
 #include "venule/cco.h"
 #include "venule/network.h"
