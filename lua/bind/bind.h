@@ -13,7 +13,7 @@
 /// One bound function: everything that the stubs and the reference page say of it.
 typedef struct vnl_function {
     const char *name;
-    lua_CFunction call;
+    lua_CFunction call; ///< NULL: a column of that name is what is called
     const char
         *signature; ///< as LuaCATS writes it: "(x: number, y: number): boolean"; NULL: one table of options
     const char *returns;     ///< with options: the type of what comes back
@@ -96,6 +96,8 @@ void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *de
 int vnl_raw_field(lua_State *L, int index, const char *field);
 /// Whether the table at @p index has the field; used where "not given" differs from every value.
 bool vnl_has(lua_State *L, int index, const char *field);
+/// A VN_MIXED field that is true or false; @p otherwise where it, or the table, was not given.
+bool vnl_read_switch(lua_State *L, int index, const char *verb, const char *field, bool otherwise);
 /// A whole number that is not a string that looks like one.
 lua_Integer vnl_check_integer(lua_State *L, int index, const char *what);
 /// The influence at @p index, whose attractors and network are open, and unchanged since.
@@ -112,6 +114,9 @@ double vnl_check_number(lua_State *L, int index, const char *what);
 /// Set a field of the table on top of the stack.
 void vnl_set_integer(lua_State *L, const char *name, lua_Integer value);
 void vnl_set_number(lua_State *L, const char *name, double value);
+/// A field with a list of numbers, and one with what describes such a list.
+void vnl_set_list(lua_State *L, const char *name, const double *values, int32_t count);
+void vnl_set_statistics(lua_State *L, const char *name, const vn_statistics *statistics);
 /// Push @p size zeroed bytes of Lua's own, which @p release frees what hangs from even when Lua runs out of
 /// memory half way.
 void *vnl_push_owned(lua_State *L, size_t size, lua_CFunction release);
@@ -139,6 +144,9 @@ int32_t vnl_named_networks(lua_State *L, int index, const char *what, const vn_n
                            const char **names);
 /// net:voxels{…}
 int vnl_network_voxels(lua_State *L);
+/// net:flow{…} and net:levels().
+int vnl_network_flow(lua_State *L);
+int vnl_network_levels(lua_State *L);
 
 /// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and
 /// ipairs().
@@ -146,6 +154,8 @@ int vnl_network_voxels(lua_State *L);
 typedef void vnl_read_fn(lua_State *L, void *object, int32_t i);
 typedef int32_t vnl_count_fn(void *object);
 void vnl_push_view(lua_State *L, int object, const vnl_class *class, vnl_read_fn *read, vnl_count_fn *count);
+/// Let the column on top of the stack be a method too: @p call gets the arguments of a method.
+void vnl_set_view_call(lua_State *L, lua_CFunction call);
 
 int luaopen_venule(lua_State *L) __attribute__((visibility("default")));
 

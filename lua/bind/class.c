@@ -221,7 +221,7 @@ static int refuse_assignment(lua_State *L) {
 // Operators ("__add") go into the metatable, methods into its __index.
 static void set_functions(lua_State *L, const vnl_function *functions, bool operators) {
     for (const vnl_function *f = functions; f != NULL && f->name != NULL; f++) {
-        if ((strncmp(f->name, "__", 2) == 0) == operators) {
+        if (f->call != NULL && (strncmp(f->name, "__", 2) == 0) == operators) {
             lua_pushcfunction(L, f->call);
             lua_setfield(L, -2, f->name);
         }
@@ -270,6 +270,7 @@ typedef struct view {
     const vnl_class *class;
     vnl_read_fn *read;
     vnl_count_fn *count;
+    lua_CFunction call; // what the column does when it is called as a method; may be NULL
 } view;
 
 static void *view_object(lua_State *L, const view *v) {
@@ -297,6 +298,16 @@ static int view_length(lua_State *L) {
     return 1;
 }
 
+// `net:flow{…}` beside `net.flow[i]`: what the column is called with begins with its object again.
+static int view_call(lua_State *L) {
+    const view *v = luaL_checkudata(L, 1, "venule.view");
+    if (v->call == NULL) {
+        return vnl_fail(L, "a column is read by [index], not called");
+    }
+    lua_remove(L, 1);
+    return v->call(L);
+}
+
 static int view_assign(lua_State *L) {
     return vnl_fail(L, "columns cannot be written to");
 }
@@ -304,9 +315,14 @@ static int view_assign(lua_State *L) {
 void vnl_push_view(lua_State *L, int object, const vnl_class *class, vnl_read_fn *read, vnl_count_fn *count) {
     object = lua_absindex(L, object);
     view *v = lua_newuserdatauv(L, sizeof *v, 1);
-    *v = (view){class, read, count};
+    *v = (view){class, read, count, NULL};
     vnl_keep(L, -1, object);
     luaL_setmetatable(L, "venule.view");
+}
+
+void vnl_set_view_call(lua_State *L, lua_CFunction call) {
+    view *v = lua_touserdata(L, -1);
+    v->call = call;
 }
 
 void vnl_register_view(lua_State *L) {
@@ -315,6 +331,8 @@ void vnl_register_view(lua_State *L) {
     lua_setfield(L, -2, "__index");
     lua_pushcfunction(L, view_length);
     lua_setfield(L, -2, "__len");
+    lua_pushcfunction(L, view_call);
+    lua_setfield(L, -2, "__call");
     lua_pushcfunction(L, view_assign);
     lua_setfield(L, -2, "__newindex");
     lua_pop(L, 1);

@@ -13,28 +13,6 @@ vn_leaf_measures *vnl_push_leaf_measures(lua_State *L) {
     return vnl_push_owned(L, sizeof(vn_leaf_measures), free_measures);
 }
 
-static void set_list(lua_State *L, const char *name, const double *values, int32_t count) {
-    lua_createtable(L, count, 0);
-    for (int32_t i = 0; i < count; i++) {
-        lua_pushnumber(L, values[i]);
-        lua_rawseti(L, -2, i + 1);
-    }
-    lua_setfield(L, -2, name);
-}
-
-static void set_statistics(lua_State *L, const char *name, const vn_statistics *s) {
-    lua_createtable(L, 0, 8);
-    vnl_set_integer(L, "count", s->count);
-    vnl_set_number(L, "mean", s->mean);
-    vnl_set_number(L, "deviation", s->deviation);
-    vnl_set_number(L, "min", s->min);
-    vnl_set_number(L, "lower", s->lower);
-    vnl_set_number(L, "median", s->median);
-    vnl_set_number(L, "upper", s->upper);
-    vnl_set_number(L, "max", s->max);
-    lua_setfield(L, -2, name);
-}
-
 static void set_hierarchy(lua_State *L, const vn_loop_hierarchy *h) {
     lua_createtable(L, 0, 5);
     vnl_set_integer(L, "merges", h->merge_count);
@@ -95,11 +73,11 @@ void vnl_push_leaf_table(lua_State *L, const vn_leaf_measures *m) {
     vnl_set_number(L, "tip_density", m->tip_density);
     vnl_set_number(L, "free_end_density", m->free_end_density);
     set_counts(L, m);
-    set_list(L, "order_density", m->order_density, m->order_count);
-    set_list(L, "areole_areas", m->areole_areas, m->areoles);
-    set_list(L, "areole_quotients", m->areole_quotients, m->areoles);
-    set_statistics(L, "areole_area", &m->areole_area);
-    set_statistics(L, "areole_quotient", &m->areole_quotient);
+    vnl_set_list(L, "order_density", m->order_density, m->order_count);
+    vnl_set_list(L, "areole_areas", m->areole_areas, m->areoles);
+    vnl_set_list(L, "areole_quotients", m->areole_quotients, m->areoles);
+    vnl_set_statistics(L, "areole_area", &m->areole_area);
+    vnl_set_statistics(L, "areole_quotient", &m->areole_quotient);
     set_hierarchy(L, &m->hierarchy);
     set_angles(L, &m->angles);
     set_distance(L, &m->distance);

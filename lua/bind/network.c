@@ -1,6 +1,7 @@
 #include "bind/bind.h"
 
 #include "colonize/attractors.h"
+#include "network/flow.h"
 #include "network/leaf.h"
 
 #include <string.h>
@@ -107,18 +108,20 @@ static int network_children(lua_State *L) {
 static int network_joins(lua_State *L) {
     vn_network *network = check_network(L);
     int32_t count = vn_network_join_count(network);
+    bool known = vn_network_has_join_flow(network);
     lua_createtable(L, count, 0);
     for (int32_t i = 0; i < count; i++) {
         int32_t a, b;
         double radius;
         vn_network_join_ends(network, i, &a, &b, &radius);
-        lua_createtable(L, 0, 3);
-        lua_pushinteger(L, a + 1);
-        lua_setfield(L, -2, "a");
-        lua_pushinteger(L, b + 1);
-        lua_setfield(L, -2, "b");
-        lua_pushnumber(L, radius);
-        lua_setfield(L, -2, "radius");
+        double flow = vn_network_join_flow(network, i);
+        lua_createtable(L, 0, 4);
+        vnl_set_integer(L, "a", a + 1);
+        vnl_set_integer(L, "b", b + 1);
+        vnl_set_number(L, "radius", radius);
+        if (known) {
+            vnl_set_number(L, "flow", flow);
+        }
         lua_rawseti(L, -2, i + 1);
     }
     return 1;
@@ -139,25 +142,12 @@ static int network_orders(lua_State *L) {
     return 0;
 }
 
-static bool wants_leaf(lua_State *L, int options) {
-    if (!lua_istable(L, options)) {
-        return false;
-    }
-    int type = vnl_raw_field(L, options, "leaf");
-    if (type != LUA_TNIL && type != LUA_TBOOLEAN) {
-        vnl_fail(L, "measure.leaf: true or false expected, got %s", luaL_typename(L, -1));
-    }
-    bool wants = lua_toboolean(L, -1);
-    lua_pop(L, 1);
-    return wants;
-}
-
 static int network_measure(lua_State *L) {
     vn_leaf_def def;
     vn_network_measures m;
     lua_settop(L, 2);
     vn_leaf_measures *leaf = vnl_push_leaf_measures(L);
-    bool wanted = wants_leaf(L, 2);
+    bool wanted = vnl_read_switch(L, 2, "measure", "leaf", false);
     vnl_read_options(L, 2, &vn_leaf_schema, &def);
     vn_network *network = check_network(L);
     vnl_try(L, vn_network_measure(network, &m));
@@ -264,8 +254,10 @@ static const vnl_function methods[] = {
      &vn_extend_schema},
     {"children", network_children, "(node: integer): integer[]", NULL,
      "The children of a node, in the order of birth.", NULL},
-    {"joins", network_joins, "(): {a: integer, b: integer, radius: number}[]", NULL,
-     "The extra edges that close loops, with their radii; by Murray's law a is the parent.", NULL},
+    {"joins", network_joins, "(): {a: integer, b: integer, radius: number, flow?: number}[]", NULL,
+     "The extra edges that close loops, with their radii; by Murray's law a is the parent. `flow`, from a to "
+     "b, once net:flow{…} was called.",
+     NULL},
     {"orders", network_orders, "(kind: \"strahler\"|\"horton\"|\"hickey\", options?: venule.orders.Options)",
      NULL,
      "Compute the vein order of every edge, read as `net.order`. Pictures then have a layer an order. Joins "
@@ -277,6 +269,20 @@ static const vnl_function methods[] = {
      "max_radius, extent. With `leaf = true` also what botanists measure in leaves, as `leaf`: vein density, "
      "areoles, free ends, junctions, the hierarchy of loops, angles, distances to veins.",
      &vn_leaf_schema},
+    {"flow", NULL, "(options?: venule.flow.Options): venule.FlowReport", NULL,
+     "Solve Poiseuille's law for the flow in every edge (then read as `net.flow`, joins' by net:joins()) and "
+     "the pressure at every node (`net.pressure`), and say what can be said of them. Pressures are in Pa, "
+     "lengths L in the network's unit, flows in L³/s (mm³/s for mm), shear stresses in Pa. Pressures hold at "
+     "roots and terminals unless a flow is given. With `solve = false` the flows and pressures that the "
+     "network has, from a file or from growth, are checked instead: each of `conservation`, `drop` "
+     "(Poiseuille's, along edges) and `terminal` (pressures against pressure_out) is the largest relative "
+     "error and the node or join where it is. print(report) is one line of it.",
+     &vn_flow_schema},
+    {"levels", vnl_network_levels, "(): venule.Levels", NULL,
+     "Diameter, length and flow of segments by bifurcation level, from level 0 at the root: a list; in it "
+     "also statistics of the daughters' symmetry (thinnest radius by thickest), of length by diameter, and "
+     "of the angle between two daughters. A segment runs from fork to fork. Joins are nobody's children.",
+     NULL},
     {"scale", network_scale, "(factor: number)", NULL, "Multiply all coordinates and radii.", NULL},
     {"voxels", vnl_network_voxels, "(options?: venule.voxels.Options): venule.Volume", NULL,
      "The network in voxels: `net:voxels {resolution = 0.5, content = \"radius\"}:save \"radius.nii.gz\"`. "
@@ -328,11 +334,38 @@ static void read_order(lua_State *L, void *object, int32_t i) {
     lua_pushinteger(L, orders[i]);
 }
 
+static const char not_solved[] = "is not known: call net:flow{…} after the last change";
+
+static void read_flow(lua_State *L, void *object, int32_t i) {
+    const double *flow = vn_network_flow(object);
+    if (flow == NULL) {
+        vnl_fail(L, "network.flow %s", not_solved);
+    }
+    lua_pushnumber(L, flow[i]);
+}
+
+static void read_pressure(lua_State *L, void *object, int32_t i) {
+    const double *pressure = vn_network_pressure(object);
+    if (pressure == NULL) {
+        vnl_fail(L, "network.pressure %s", not_solved);
+    }
+    lua_pushnumber(L, pressure[i]);
+}
+
 static const struct {
     const char *name;
     vnl_read_fn *read;
-} columns[] = {{"x", read_x},       {"y", read_y},         {"z", read_z},           {"parent", read_parent},
-               {"tree", read_tree}, {"birth", read_birth}, {"radius", read_radius}, {"order", read_order}};
+    lua_CFunction call; // of a column that is a method as well
+} columns[] = {{"x", read_x, NULL},
+               {"y", read_y, NULL},
+               {"z", read_z, NULL},
+               {"parent", read_parent, NULL},
+               {"tree", read_tree, NULL},
+               {"birth", read_birth, NULL},
+               {"radius", read_radius, NULL},
+               {"order", read_order, NULL},
+               {"flow", read_flow, vnl_network_flow},
+               {"pressure", read_pressure, NULL}};
 
 static int network_field(lua_State *L) {
     const vn_network *network = check_network(L);
@@ -340,6 +373,7 @@ static int network_field(lua_State *L) {
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         if (strcmp(key, columns[i].name) == 0) {
             vnl_push_view(L, 1, &vnl_network_class, columns[i].read, count_nodes);
+            vnl_set_view_call(L, columns[i].call);
             return 1;
         }
     }
@@ -366,6 +400,8 @@ static const char *const fields[] = {
     "parent: integer[] | each node's parent, 0 at a root",
     "radius: number[] | of the edge to the parent; at a root, of its thickest child",
     "order: integer[] | of that edge, once net:orders(…) was called",
+    "flow: number[] | through that edge (length³/s), what enters at a root; once net:flow{…} was called",
+    "pressure: number[] | at the nodes (Pa), likewise",
     "tree: integer[] | which root each node hangs from, counted from 1",
     "birth: integer[] | the step each node was born in",
     "dim: integer | 2 or 3",

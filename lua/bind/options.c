@@ -234,6 +234,19 @@ int vnl_raw_field(lua_State *L, int index, const char *field) {
     return lua_rawget(L, index);
 }
 
+bool vnl_read_switch(lua_State *L, int index, const char *verb, const char *field, bool otherwise) {
+    if (!lua_istable(L, index)) {
+        return otherwise;
+    }
+    int type = vnl_raw_field(L, index, field);
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN) {
+        vnl_fail(L, "%s.%s: true or false expected, got %s", verb, field, luaL_typename(L, -1));
+    }
+    bool value = type == LUA_TNIL ? otherwise : lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return value;
+}
+
 lua_Integer vnl_check_integer(lua_State *L, int index, const char *what) {
     if (!lua_isinteger(L, index)) {
         double value = vnl_check_number(L, index, what);
@@ -264,6 +277,28 @@ void vnl_set_integer(lua_State *L, const char *name, lua_Integer value) {
 
 void vnl_set_number(lua_State *L, const char *name, double value) {
     lua_pushnumber(L, value);
+    lua_setfield(L, -2, name);
+}
+
+void vnl_set_list(lua_State *L, const char *name, const double *values, int32_t count) {
+    lua_createtable(L, count, 0);
+    for (int32_t i = 0; i < count; i++) {
+        lua_pushnumber(L, values[i]);
+        lua_rawseti(L, -2, i + 1);
+    }
+    lua_setfield(L, -2, name);
+}
+
+void vnl_set_statistics(lua_State *L, const char *name, const vn_statistics *s) {
+    lua_createtable(L, 0, 8);
+    vnl_set_integer(L, "count", s->count);
+    vnl_set_number(L, "mean", s->mean);
+    vnl_set_number(L, "deviation", s->deviation);
+    vnl_set_number(L, "min", s->min);
+    vnl_set_number(L, "lower", s->lower);
+    vnl_set_number(L, "median", s->median);
+    vnl_set_number(L, "upper", s->upper);
+    vnl_set_number(L, "max", s->max);
     lua_setfield(L, -2, name);
 }
 

@@ -261,6 +261,30 @@ static void write_all(writer *w, lua_State *L) {
         "integer, thick_middle: number, thick_thin: number, middle_thin: number}[]}\n---@field distance "
         "{resolution: number, points: integer, mean: number, max: number, mode: number}\n\n",
         w->stubs);
+    fputs(
+        "---@class venule.FlowWorst\n---@field error number # relative\n---@field node? integer # where: the "
+        "node, or the node whose edge it is\n---@field join? integer # or the join\n\n"
+        "---@class venule.FlowReport\n---@field inflow number # at all roots, length³/s\n---@field outflow "
+        "number # at all terminals, length³/s\n---@field volume number # Σ π r² ℓ, length³\n---@field "
+        "resistance number # power / inflow², Pa s/length³\n---@field power number # Σ R Q², Pa "
+        "length³/s\n---@field conservation venule.FlowWorst # in less out, by what passes a node\n---@field "
+        "drop venule.FlowWorst # loss along an edge less Poiseuille's, by the span of "
+        "pressures\n---@field terminal venule.FlowWorst # pressure less pressure_out, by it\n---@field "
+        "terminal_pressure venule.Statistics # Pa\n---@field terminal_flow venule.Statistics # "
+        "length³/s\n---@field wall_shear venule.Statistics # of edges, 4 μ |Q| / (π r³), Pa\n---@field "
+        "murray venule.Statistics # |r_parent^exponent - Σ r_child^exponent| / r_parent^exponent at "
+        "forks\n---@field fitted venule.Statistics # the exponents that make it 0\n---@field terminals "
+        "{node: integer[], pressure: number[], flow: number[]}\n---@field edge_shear number[] # Pa, of each "
+        "node's edge; 0 at a root\n---@field join_shear number[] # Pa, of each join\n\n"
+        "---@class venule.Spread\n---@field mean number\n---@field deviation number\n\n"
+        "---@class venule.Level\n---@field level integer # forks between the root and it\n---@field count "
+        "integer # segments\n---@field diameter venule.Spread\n---@field length venule.Spread\n---@field "
+        "flow? venule.Spread # where flows are known\n\n"
+        "---@class venule.Levels\n---@field [integer] venule.Level\n---@field segments integer\n---@field "
+        "symmetry venule.Statistics # thinnest daughter's radius by the thickest's\n---@field slenderness "
+        "venule.Statistics # length by diameter\n---@field angle venule.Statistics # degrees, between two "
+        "daughters\n\n",
+        w->stubs);
     fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options "
           "marked *required* "
           "must be given; an option without a default may be left out. Indices count from 1, angles are "
