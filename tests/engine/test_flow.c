@@ -299,7 +299,35 @@ static void flows_are_what_elimination_says(void **state) {
     assert_true(met > 60);
 }
 
-// Ten decades and more of conductance, and still the flows add up.
+// What is lost on the way from a node to its root, and the sum of the parts without their signs.
+static long double loss_to_root(const vn_network *network, const vn_flow_def *def, int32_t node,
+                                long double *size) {
+    long double loss = 0;
+    vn_pipe pipe;
+    for (; vn_pipe_get(network, node, &pipe); node = pipe.a) {
+        long double part = pipe_resistance(&pipe, def) * vn_network_flow(network)[node];
+        loss += part;
+        *size += fabsl(part);
+    }
+    return loss;
+}
+
+// Roots have one pressure, so every join closes a loop, through them at the longest.
+static void check_loops(const vn_network *network, const vn_flow_def *def, double tolerance) {
+    for (int32_t j = 0; j < vn_network_join_count(network); j++) {
+        vn_pipe pipe;
+        long double size = 0;
+        vn_pipe_get(network, vn_network_count(network) + j, &pipe);
+        long double loss = loss_to_root(network, def, pipe.a, &size);
+        loss -= loss_to_root(network, def, pipe.b, &size);
+        long double own = pipe_resistance(&pipe, def) * vn_network_join_flow(network, j);
+        size += fabsl(own);
+        assert_near((double)(loss + own), 0, tolerance * (double)size);
+    }
+}
+
+// Ten decades and more of conductance, and still the flows add up, round loops as well: for every loop to a
+// part of what is lost in it, which where it is wide is far less than the pressures' last digit.
 static void far_conductances_keep_what_flows(void **state) {
     (void)state;
     oracle *o = malloc(sizeof *o);
@@ -312,6 +340,7 @@ static void far_conductances_keep_what_flows(void **state) {
         assert_true(report.drop.error < 1e-12);
         solve_densely(o, network, &def);
         check_against(o, network, &def, 1e-9);
+        check_loops(network, &def, 1e-14);
         vn_flow_report_free(&report);
         vn_network_destroy(network);
     }
@@ -559,6 +588,33 @@ static void loops_without_an_end_stand_still(void **state) {
     assert_int_equal(report.murray.count, 0);
     vn_flow_report_free(&report);
     vn_network_destroy(network);
+}
+
+// Chains whose ends are joined back, with chords: not one bit moves.
+static void closed_rings_stand_still(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 20; seed++) {
+        vn_rng rng = vn_rng_make(seed);
+        vn_network *network = network_of(2);
+        double radius[30];
+        for (int32_t i = 0; i < 30; i++) {
+            double x = uniform(&rng, -5, 5), y = uniform(&rng, -5, 5);
+            radius[i] = uniform(&rng, 0.1, 2);
+            (void)(i == 0 ? put_root(network, x, y, 0) : put_child(network, i - 1, x, y, 0));
+        }
+        assert_ok(vn_network_set_radii(network, radius));
+        assert_ok(vn_network_join(network, 29, 3, 0.1));
+        vn_network_join(network, (int32_t)whole(&rng, 4, 12), (int32_t)whole(&rng, 15, 28), 0.7);
+        vn_flow_def def = flow_def();
+        vn_flow_report report = solved(network, &def);
+        for (int32_t i = 0; i < 30; i++) {
+            assert_true(vn_network_flow(network)[i] == 0);
+            assert_true(vn_network_pressure(network)[i] == def.pressure_in);
+        }
+        assert_true(report.power == 0 && report.conservation.error == 0);
+        vn_flow_report_free(&report);
+        vn_network_destroy(network);
+    }
 }
 
 static void edges_without_a_length(void **state) {
@@ -927,6 +983,7 @@ int main(void) {
         counted_test(murray_trees_keep_the_law),
         counted_test(one_edge_and_none),
         counted_test(loops_without_an_end_stand_still),
+        counted_test(closed_rings_stand_still),
         counted_test(edges_without_a_length),
         counted_test(joined_roots_share_what_enters),
         counted_test(turned_joins_keep_their_flow),
