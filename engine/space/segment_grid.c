@@ -213,43 +213,6 @@ int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y,
     return search.best;
 }
 
-// Grow a sum without rounding (Shewchuk 1997): parts do not overlap and increase; the last decides the sign.
-static int grow_sum(double *parts, int count, double value) {
-    for (int i = 0; i < count; i++) {
-        double sum = value + parts[i];
-        double virtual = sum - value;
-        parts[i] = (value - (sum - virtual)) + (parts[i] - virtual);
-        value = sum;
-    }
-    parts[count] = value;
-    return count + 1;
-}
-
-static double exact_turn(double ax, double ay, double bx, double by, double cx, double cy) {
-    const double products[6][2] = {{ax, by}, {-ax, cy}, {-cx, by}, {-ay, bx}, {ay, cx}, {cy, bx}};
-    double parts[12];
-    int count = 0;
-    for (int i = 0; i < 6; i++) {
-        double high = products[i][0] * products[i][1];
-        double low = fma(products[i][0], products[i][1], -high);
-        count = grow_sum(parts, count, low);
-        count = grow_sum(parts, count, high);
-    }
-    double sum = 0;
-    for (int i = 0; i < count; i++) {
-        sum += parts[i]; // from the smallest up: the largest part decides
-    }
-    return sum;
-}
-
-double vn_turn(double ax, double ay, double bx, double by, double cx, double cy) {
-    double left = (ax - cx) * (by - cy);
-    double right = (ay - cy) * (bx - cx);
-    double det = left - right;
-    double bound = 3.3306690738754716e-16 * (fabs(left) + fabs(right));
-    return fabs(det) > bound ? det : exact_turn(ax, ay, bx, by, cx, cy);
-}
-
 static bool within(double a, double b, double value) {
     return a <= b ? a <= value && value <= b : b <= value && value <= a;
 }

@@ -3,6 +3,7 @@
 #define VN_SPACE_SEGMENT_GRID_H
 
 #include "base/array.h"
+#include "space/exact.h"
 
 typedef struct vn_segment {
     double x0, y0, x1, y1;
@@ -32,8 +33,6 @@ bool vn_segment_grid_visit(const vn_segment_grid *grid, double min_x, double min
 int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y, double *distance2,
                                 double q[2]);
 
-/// Twice the signed area of the triangle a, b, c: positive when they turn left. Exact in sign.
-double vn_turn(double ax, double ay, double bx, double by, double cx, double cy);
 /// Whether two segments share a point (ends included).
 bool vn_segments_touch(const vn_segment *s, const vn_segment *t);
 

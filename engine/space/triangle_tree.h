@@ -9,19 +9,22 @@ typedef struct vn_triangle {
     double a[3], b[3], c[3];
 } vn_triangle;
 
-typedef struct vn_triangle_box {
-    double low[3], high[3];
-} vn_triangle_box;
+enum { VN_TRIANGLE_FAN = 8, VN_TRIANGLE_LEVELS = 12 };
 
-enum { VN_TRIANGLE_LEVELS = 16 };
+/// The boxes of eight triangles, or of eight smaller packs, side by side so that they are tested together.
+/// In units of the tree's size from its lowest corner, rounded outwards.
+typedef struct vn_triangle_pack {
+    float low[3][VN_TRIANGLE_FAN], high[3][VN_TRIANGLE_FAN];
+} vn_triangle_pack;
 
 /// A zeroed one is empty and owns nothing.
 typedef struct vn_triangle_tree {
-    VN_ARRAY(vn_triangle) triangles; ///< along a space-filling curve
+    VN_ARRAY(vn_triangle) triangles; ///< neighbours beside one another
     VN_ARRAY(int32_t) numbers;       ///< of each of them, as they were given
-    VN_ARRAY(vn_triangle_box) boxes; ///< level 0 round runs of triangles, each next one round runs of boxes
-    int32_t starts[VN_TRIANGLE_LEVELS + 1];
-    int levels;
+    VN_ARRAY(vn_triangle_pack) packs;
+    int32_t starts[VN_TRIANGLE_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1])
+    int levels;                             ///< level 0 boxes triangles
+    double low[3], size;
 } vn_triangle_tree;
 
 /// The nearest point @p q of the triangle; returns its squared distance.
@@ -43,5 +46,13 @@ typedef bool vn_triangle_visit(int32_t number, void *payload);
 /// False when a visit was ended.
 bool vn_triangle_tree_around(const vn_triangle_tree *tree, const double p[3], double reach2,
                              vn_triangle_visit *visit, void *payload);
+
+/// Called with a triangle and its number; false ends the visit.
+typedef bool vn_triangle_along(const vn_triangle *triangle, int32_t number, void *payload);
+
+/// Visit all triangles that the line from @p a to @p b may meet: those whose boxes it comes into, and perhaps
+/// a few more. In the same order; false when a visit was ended.
+bool vn_triangle_tree_along(const vn_triangle_tree *tree, const double a[3], const double b[3],
+                            vn_triangle_along *visit, void *payload);
 
 #endif
