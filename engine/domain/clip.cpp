@@ -105,13 +105,20 @@ vn_status store(vn_rings *out, const Paths &paths, const Scale &scale) {
     return VN_OK;
 }
 
-/// `clip` may be null.
+/// `clip` may be null. At last, a margin is taken off.
 struct Job {
     const vn_rings *subject;
     const vn_rings *clip;
     ClipperLib::ClipType type;
     ClipperLib::PolyFillType fill;
+    double margin;
 };
+
+void inset(Paths &paths, double margin) {
+    ClipperLib::ClipperOffset offset(2, 1e-6 * margin);
+    offset.AddPaths(paths, ClipperLib::jtRound, ClipperLib::etClosedPolygon);
+    offset.Execute(paths, -margin);
+}
 
 // Clipper calls it a failure when it was given nothing that has an area.
 bool attempt(const Job &job, const Scale &scale, Paths &solution) {
@@ -134,6 +141,9 @@ vn_status execute(vn_rings *out, const Job &job) {
         Paths solution;
         scale.turn = turn;
         if (attempt(job, scale, solution)) {
+            if (job.margin > 0) {
+                inset(solution, job.margin * scale.factor);
+            }
             return store(out, solution, scale);
         }
     }
@@ -166,10 +176,16 @@ ClipperLib::ClipType type_of(vn_combination how) {
 
 extern "C" vn_status vn_rings_resolve(vn_rings *out, const vn_rings *rings, vn_fill fill) {
     auto rule = fill == VN_FILL_NONZERO ? ClipperLib::pftNonZero : ClipperLib::pftEvenOdd;
-    return into(out, [&] { return execute(out, {rings, nullptr, ClipperLib::ctUnion, rule}); });
+    return into(out, [&] { return execute(out, {rings, nullptr, ClipperLib::ctUnion, rule, 0}); });
 }
 
 extern "C" vn_status vn_rings_combine(vn_rings *out, const vn_rings *a, const vn_rings *b,
                                       vn_combination how) {
-    return into(out, [&] { return execute(out, {a, b, type_of(how), ClipperLib::pftEvenOdd}); });
+    return into(out, [&] { return execute(out, {a, b, type_of(how), ClipperLib::pftEvenOdd, 0}); });
+}
+
+extern "C" vn_status vn_rings_inset(vn_rings *out, const vn_rings *rings, double margin) {
+    return into(out, [&] {
+        return execute(out, {rings, nullptr, ClipperLib::ctUnion, ClipperLib::pftEvenOdd, margin});
+    });
 }

@@ -7,9 +7,6 @@ typedef struct combination {
     int64_t seen; ///< changes of the growing operands when bounds and measure were taken
 } combination;
 
-// Grows with every change of a growing operand; 0 where nothing grows.
-static int64_t changes_of(const vn_domain *domain);
-
 static void combination_destroy(vn_domain *domain) {
     combination *c = (combination *)domain;
     vn_domain_release(c->a);
@@ -66,15 +63,16 @@ static vn_status combination_outline(const vn_domain *domain, int32_t sides, vn_
     return status;
 }
 
-static int64_t today(const combination *c) {
-    return changes_of(c->a) + changes_of(c->b);
+static int64_t combination_changes(const vn_domain *domain) {
+    const combination *c = (const combination *)domain;
+    return vn_domain_changes(c->a) + vn_domain_changes(c->b);
 }
 
 // After a growing operand has grown. A failure, for want of memory, leaves them as they were, and is
 // tried again.
 static void combination_refresh(vn_domain *domain) {
     combination *c = (combination *)domain;
-    int64_t changes = today(c);
+    int64_t changes = combination_changes(domain);
     if (domain->dim == 2 && changes != c->seen && vn_domain_measure_outline(domain) == VN_OK) {
         c->seen = changes;
     }
@@ -85,45 +83,13 @@ static const vn_domain_kind flat_kind = {.name = "combination",
                                          .contains = combination_contains,
                                          .closest = combination_closest,
                                          .outline = combination_outline,
-                                         .refresh = combination_refresh};
-
-static int64_t changes_of(const vn_domain *domain) {
-    return domain->kind == &flat_kind ? today((const combination *)domain) : domain->changes;
-}
+                                         .refresh = combination_refresh,
+                                         .changes = combination_changes};
 
 static const vn_domain_kind solid_kind = {.name = "combination",
                                           .destroy = combination_destroy,
                                           .contains = combination_contains,
                                           .closest = combination_closest};
-
-// The volume by Halton's points: nothing else is exact for every pair of solids.
-static double halton(int32_t index, int32_t base) {
-    double value = 0, part = 1;
-    for (int32_t i = index; i > 0; i /= base) {
-        part /= base;
-        value += part * (i % base);
-    }
-    return value;
-}
-
-static void measure_solid(vn_domain *domain) {
-    enum { POINTS = 1 << 18 };
-    static const int32_t bases[3] = {2, 3, 5};
-    int32_t inside = 0;
-    double volume = 1;
-    for (int k = 0; k < 3; k++) {
-        volume *= domain->bounds.max[k] - domain->bounds.min[k];
-    }
-    for (int32_t i = 1; i <= POINTS; i++) {
-        double p[3];
-        for (int k = 0; k < 3; k++) {
-            p[k] =
-                domain->bounds.min[k] + halton(i, bases[k]) * (domain->bounds.max[k] - domain->bounds.min[k]);
-        }
-        inside += vn_domain_contains(domain, p);
-    }
-    domain->measure = volume * inside / POINTS;
-}
 
 static vn_box combine_bounds(const vn_box *a, const vn_box *b, vn_combination how) {
     vn_box box = *a;
@@ -143,14 +109,14 @@ static vn_status combine_kept(vn_domain **out, const vn_domain *a, const vn_doma
     c->a = vn_domain_retain(a);
     c->b = vn_domain_retain(b);
     c->how = how;
-    c->seen = today(c);
+    c->seen = combination_changes(&c->base);
     memcpy(c->base.unit, a->unit, sizeof c->base.unit);
     vn_status status = VN_OK;
     if (a->dim == 2) {
         status = vn_domain_measure_outline(&c->base);
     } else {
         c->base.bounds = combine_bounds(&a->bounds, &b->bounds, how);
-        measure_solid(&c->base);
+        c->base.measure = vn_domain_measure_by_points(&c->base);
     }
     if (status == VN_OK && !(c->base.measure > 0)) {
         status = vn_fail(VN_INFEASIBLE, "the combination of these domains is empty: nothing is left of it");

@@ -36,6 +36,10 @@ const char *vn_domain_unit(const vn_domain *domain) {
     return domain->unit;
 }
 
+int64_t vn_domain_changes(const vn_domain *domain) {
+    return domain->kind->changes != NULL ? domain->kind->changes(domain) : domain->changes;
+}
+
 static void refresh(const vn_domain *domain) {
     if (domain->kind->refresh != NULL) {
         domain->kind->refresh((vn_domain *)domain); // bounds and measure of a moving shape are a cache
@@ -153,8 +157,7 @@ bool vn_domain_snap(const vn_domain *domain, double p[3]) {
 
 vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     if (domain->kind->dart != NULL) {
-        domain->kind->dart(domain, rng, p);
-        return VN_OK;
+        return domain->kind->dart(domain, rng, p);
     }
     for (int tries = 0; tries < 1000000; tries++) {
         p[2] = 0;
@@ -188,4 +191,32 @@ vn_status vn_domain_measure_outline(vn_domain *domain) {
     }
     vn_rings_free(&rings);
     return status;
+}
+
+static double halton(int32_t index, int32_t base) {
+    double value = 0, part = 1;
+    for (int32_t i = index; i > 0; i /= base) {
+        part /= base;
+        value += part * (i % base);
+    }
+    return value;
+}
+
+double vn_domain_measure_by_points(const vn_domain *domain) {
+    enum { POINTS = 1 << 18 };
+    static const int32_t bases[3] = {2, 3, 5};
+    const vn_box *box = &domain->bounds;
+    int32_t inside = 0;
+    double size = 1;
+    for (int k = 0; k < domain->dim; k++) {
+        size *= box->max[k] - box->min[k];
+    }
+    for (int32_t i = 1; i <= POINTS; i++) {
+        double p[3] = {0};
+        for (int k = 0; k < domain->dim; k++) {
+            p[k] = box->min[k] + halton(i, bases[k]) * (box->max[k] - box->min[k]);
+        }
+        inside += vn_domain_contains(domain, p);
+    }
+    return size * inside / POINTS;
 }

@@ -11,6 +11,7 @@
 extern const vn_schema vn_disk_schema;
 extern const vn_schema vn_box_schema;
 extern const vn_schema vn_profile_schema;
+extern const vn_schema vn_shell_schema;
 
 /// What a domain with a moving margin answers besides.
 typedef struct vn_margin {
@@ -36,8 +37,10 @@ typedef struct vn_domain_kind {
     bool (*is_grown)(const vn_domain *domain);
     /// Bring bounds and measure up to date with what it is made of; NULL: they are always.
     void (*refresh)(vn_domain *domain);
+    /// How often the shape of what it is made of has changed; NULL: `changes` says so.
+    int64_t (*changes)(const vn_domain *domain);
     /// A uniformly distributed point; NULL: darts into the bounds that contains() takes.
-    void (*dart)(const vn_domain *domain, vn_rng *rng, double p[3]);
+    vn_status (*dart)(const vn_domain *domain, vn_rng *rng, double p[3]);
     /// Of surfaces: the nearest point @p q; false when @p p lies beyond the border. NULL: the domain is as
     /// thick as its space.
     bool (*snap)(const vn_domain *domain, const double p[3], double q[3]);
@@ -61,6 +64,13 @@ void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim);
 
 /// Set `measure` to the area of the outline.
 vn_status vn_domain_measure_outline(vn_domain *domain);
+
+/// Grows with every change of its shape; 0 where nothing grows.
+int64_t vn_domain_changes(const vn_domain *domain);
+
+/// The share of its bounds that a domain fills, by Halton's points, times their size: nothing else is exact
+/// for every combination. Off by some 1e-4 of the bounds.
+double vn_domain_measure_by_points(const vn_domain *domain);
 
 /// Bring @p p onto the domain where that is a surface; elsewhere, and where @p p is beyond the border,
 /// nothing happens. Whether it is where it has to be.

@@ -25,4 +25,7 @@ vn_status vn_faces_triangulate(const vn_faces *faces, vn_corners *triangles);
 /// A surface (vn_domain_surface()) of such faces.
 vn_status vn_domain_faces(vn_domain **out, const vn_faces *faces);
 
+/// What such faces enclose (vn_domain_inside()).
+vn_status vn_domain_faces_inside(vn_domain **out, const vn_faces *faces, bool check);
+
 #endif

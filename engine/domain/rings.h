@@ -43,6 +43,10 @@ vn_status vn_rings_resolve(vn_rings *out, const vn_rings *rings, vn_fill fill);
 /// The outlines of a combination; both operands filled even-odd.
 vn_status vn_rings_combine(vn_rings *out, const vn_rings *a, const vn_rings *b, vn_combination how);
 
+/// The outlines, filled even-odd, with a margin of width @p margin taken off all round; its arcs are off by
+/// 1e-6 of it.
+vn_status vn_rings_inset(vn_rings *out, const vn_rings *rings, double margin);
+
 /// The outlines of any 2D domain. Curved borders become polylines of equal area with about @p sides sides
 /// a circle.
 vn_status vn_domain_outline(const vn_domain *domain, int32_t sides, vn_rings *out);

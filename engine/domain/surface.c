@@ -3,6 +3,7 @@
 
 #include "domain/domain.h"
 #include "domain/faces.h"
+#include "domain/seams.h"
 #include "space/triangle_tree.h"
 
 // Halfedge 3t + k leads from corner k of triangle t to the next one.
@@ -10,7 +11,7 @@ typedef struct surface {
     vn_domain base;
     VN_ARRAY(double) xyz;
     vn_corners corners;          ///< three a triangle
-    VN_ARRAY(int32_t) mate;      ///< of each halfedge the next one at the same edge, round and round
+    vn_corners mate;             ///< of each halfedge the next one at the same edge (vn_seams_link())
     VN_ARRAY(double) area_up_to; ///< of each triangle, with all before it
     vn_triangle_tree tree;
     vn_triangle_tree border; ///< of edges that one triangle has for itself
@@ -98,7 +99,7 @@ static bool surface_snap(const vn_domain *domain, const double p[3], double q[3]
     return d2 <= s->tolerance * s->tolerance || !is_near(&s->border, q, s->tolerance);
 }
 
-static void surface_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+static vn_status surface_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     const surface *s = surface_of(domain);
     double area = vn_rng_uniform(rng, 0, domain->measure);
     int32_t low = 0, high = s->area_up_to.count - 1;
@@ -115,6 +116,7 @@ static void surface_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     for (int k = 0; k < 3; k++) {
         p[k] = (1 - root) * t.a[k] + root * (1 - share) * t.b[k] + root * share * t.c[k];
     }
+    return VN_OK;
 }
 
 // ---- Sight ----
@@ -303,71 +305,9 @@ static vn_status measure_triangles(surface *s) {
     return VN_OK;
 }
 
-static uint64_t sortable(double value) {
-    uint64_t bits;
-    value += 0.0; // -0 is 0
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-// Into @p first, of each vertex the first one at the very same place: files often give a vertex once for each
-// face.
-static vn_status find_twins(const surface *s, vn_keyed_array *order, vn_keyed_array *scratch,
-                            vn_corners *first) {
-    int32_t count = s->xyz.count / 3;
-    VN_TRY(vn_array_reserve(order, count));
-    VN_TRY(vn_array_zero(first, count));
-    order->count = count;
-    for (int32_t i = 0; i < count; i++) {
-        order->data[i].value = i;
-    }
-    for (int k = 0; k < 3; k++) {
-        for (int32_t i = 0; i < count; i++) {
-            order->data[i].key = sortable(place(s, order->data[i].value)[k]);
-        }
-        VN_TRY(vn_sort_keyed(order, scratch));
-    }
-    for (int32_t i = 0; i < count; i++) {
-        int32_t v = order->data[i].value, before = i > 0 ? order->data[i - 1].value : v;
-        bool twin = i > 0 && vn_distance2(place(s, v), place(s, before)) == 0;
-        first->data[v] = twin ? first->data[before] : v;
-    }
-    return VN_OK;
-}
-
-static uint64_t edge_key(const surface *s, const vn_corners *first, int32_t h) {
-    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): every vertex has a first one
-    uint64_t a = (uint64_t)first->data[s->corners.data[h]];
-    uint64_t b = (uint64_t)first->data[s->corners.data[h - h % 3 + (h + 1) % 3]];
-    return a < b ? a << 32 | b : b << 32 | a;
-}
-
-// Halfedges of one edge lead to one another in a circle.
-static vn_status link_edges(surface *s, vn_keyed_array *order, vn_keyed_array *scratch, vn_corners *first) {
-    int32_t count = s->corners.count;
-    VN_TRY(find_twins(s, order, scratch, first));
-    VN_TRY(vn_array_reserve(order, count));
-    VN_TRY(vn_array_zero(&s->mate, count));
-    order->count = count;
-    for (int32_t h = 0; h < count; h++) {
-        order->data[h] = (vn_keyed){edge_key(s, first, h), h};
-    }
-    VN_TRY(vn_sort_keyed(order, scratch));
-    for (int32_t begin = 0, end; begin < count; begin = end) {
-        for (end = begin + 1; end < count && order->data[end].key == order->data[begin].key; end++) {
-            s->mate.data[order->data[end - 1].value] = order->data[end].value;
-        }
-        s->mate.data[order->data[end - 1].value] = order->data[begin].value;
-    }
-    return VN_OK;
-}
-
 static vn_status link_triangles(surface *s) {
-    vn_keyed_array order = {0}, scratch = {0};
     vn_corners first = {0};
-    vn_status status = link_edges(s, &order, &scratch, &first);
-    vn_array_free(&order);
-    vn_array_free(&scratch);
+    vn_status status = vn_seams_link(s->xyz.data, s->xyz.count / 3, &s->corners, &first, &s->mate);
     vn_array_free(&first);
     return status;
 }

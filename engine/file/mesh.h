@@ -21,4 +21,7 @@ void vn_polygons_free(vn_polygons *polygons);
 /// then holds nothing of use, and is to be freed all the same.
 vn_status vn_mesh_read(vn_polygons *polygons, const char *path);
 
+/// What vn_domain_mesh() makes of a file's faces.
+vn_status vn_domain_mesh_faces(vn_domain **out, const vn_faces *faces, const vn_mesh_def *def);
+
 #endif

@@ -131,6 +131,10 @@ static vn_status still_outline(const vn_domain *domain, int32_t sides, vn_rings 
     return vn_domain_outline(((const vn_growth *)domain)->shape, sides, out);
 }
 
+static vn_status still_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+    return vn_domain_dart(((const vn_growth *)domain)->shape, rng, p);
+}
+
 static const vn_growth_kind still_kind = {.name = "none",
                                           .size = sizeof(vn_growth),
                                           .domain = {.name = "blade",
@@ -138,12 +142,8 @@ static const vn_growth_kind still_kind = {.name = "none",
                                                      .contains = still_contains,
                                                      .closest = still_closest,
                                                      .sees = still_sees,
+                                                     .dart = still_dart,
                                                      .outline = still_outline}};
-
-static void still_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
-    const vn_domain *shape = ((const vn_growth *)domain)->shape;
-    shape->kind->dart(shape, rng, p);
-}
 
 static bool still_snap(const vn_domain *domain, const double p[3], double q[3]) {
     const vn_domain *shape = ((const vn_growth *)domain)->shape;

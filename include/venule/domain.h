@@ -82,6 +82,23 @@ VN_API vn_status vn_domain_profile(vn_domain **out, const vn_profile_def *def);
 VN_API vn_status vn_domain_surface(vn_domain **out, const double *xyz, int32_t vertices,
                                    const int32_t *triangles, int32_t count);
 
+/// What a closed triangle mesh encloses, in 3D; the mesh is given as to vn_domain_surface(). A point is
+/// inside when an odd number of its shells are around it: so a shell inside another one bounds a cavity, one
+/// inside that is solid again, and separate parts are all inside. Which way the triangles turn does not
+/// matter.
+///
+/// All answers are exact but for the rounding of a distance, and contains() even without that: also where a
+/// point is on a line with edges or vertices of the mesh. vn_domain_sees() is false for lines that touch the
+/// border; those along a flat part of it, from end to end, are free. vn_domain_measure() is the volume. Parts
+/// may touch in vertices and edges they have in common.
+///
+/// VN_INVALID as for vn_domain_surface(), and for a mesh that is not closed (an edge with a triangle on one
+/// side only, or with 3, 5, … of them), that encloses no volume, or, if @p check is true, where two triangles
+/// meet elsewhere than in a common corner or edge. Without that check, what lies in two parts that overlap is
+/// outside, by the same rule, and the measure is an estimate.
+VN_API vn_status vn_domain_inside(vn_domain **out, const double *xyz, int32_t vertices,
+                                  const int32_t *triangles, int32_t count, bool check);
+
 typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_combination;
 /// a − b, a + b or a · b. Of two flat domains with polygonal borders the result is a polygon, exact in every
 /// answer. Of others, contains() is exact, and distance() is exact inside − and ·, and outside +; elsewhere
@@ -90,13 +107,27 @@ typedef enum vn_combination { VN_DIFFERENCE, VN_UNION, VN_INTERSECTION } vn_comb
 VN_API vn_status vn_domain_combine(vn_domain **out, const vn_domain *a, const vn_domain *b,
                                    vn_combination how);
 
+typedef struct vn_shell_def {
+    vn_domain *domain; ///< held, not taken over; required
+    double thickness;  ///< > 0; required
+} vn_shell_def;
+VN_API vn_shell_def vn_shell_def_default(void);
+/// What of a domain is at most `thickness` from its border; a wall thinner than that is whole. Flat or solid;
+/// of a growing domain, always of today's shape. contains() is exact, and so is distance() outside the shell,
+/// on either side of it. In the shell it is the lesser of the distances to the outer and to the inner border,
+/// where the latter, `thickness` less the former, is never more than the true distance: it is exact unless
+/// the way inwards ends before, at an edge that points outwards or in the middle of a thin wall. In 3D it is
+/// measured to some 1e-4 of its bounds. VN_INVALID for a surface; VN_INFEASIBLE when it is too thin to be
+/// measured.
+VN_API vn_status vn_domain_shell(vn_domain **out, const vn_shell_def *def);
+
 /// 2 or 3.
 VN_API int vn_domain_dim(const vn_domain *domain);
 /// The length unit of its coordinates as its file gave it ("mm"), or "".
 VN_API const char *vn_domain_unit(const vn_domain *domain);
 VN_API vn_box vn_domain_bounds(const vn_domain *domain);
-/// Its area (2D, and surfaces) or volume (3D). Combinations that are not polygons are measured to about 1e-5
-/// of it.
+/// Its area (2D, and surfaces) or volume (3D). Combinations and shells of solids are measured to some 1e-4 of
+/// the volume of their bounds.
 VN_API double vn_domain_measure(const vn_domain *domain);
 /// Whether @p p is inside. Points on the border itself may be either, but always the same.
 VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);

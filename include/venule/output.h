@@ -112,12 +112,14 @@ VN_API vn_svg_def vn_svg_def_default(void);
 VN_API vn_status vn_domain_svg(vn_domain **out, const char *path, const vn_svg_def *def);
 
 typedef struct vn_mesh_def {
-    int on; ///< 0 "surface": the domain is the mesh's surface (vn_domain_surface())
+    int on;     ///< 0 "surface": the domain is the mesh's surface (vn_domain_surface()); 1 "inside": what it
+                ///< encloses (vn_domain_inside())
+    bool check; ///< of an inside, whether to look for crossings; default true
 } vn_mesh_def;
 VN_API vn_mesh_def vn_mesh_def_default(void);
-/// The surface of a mesh in an .obj, .off (plain, in text), .ply or .stl file. Faces of more than three
-/// corners are cut into triangles. VN_IO for a file that is missing or no mesh, VN_INVALID for a mesh that
-/// vn_domain_surface() refuses; messages count vertices and faces from 1.
+/// The surface or the inside of a mesh in an .obj, .off (plain, in text), .ply or .stl file. Faces of more
+/// than three corners are cut into triangles. VN_IO for a file that is missing or no mesh, VN_INVALID for a
+/// mesh that vn_domain_surface() or vn_domain_inside() refuses; messages count vertices and faces from 1.
 VN_API vn_status vn_domain_mesh(vn_domain **out, const char *path, const vn_mesh_def *def);
 
 #ifdef __cplusplus

@@ -222,7 +222,7 @@ static int32_t *read_corners(lua_State *L, int list, const int32_t *sizes, int32
     return all;
 }
 
-static void make_faces(lua_State *L, vn_domain **domain) {
+static void make_faces(lua_State *L, vn_domain **domain, const vn_mesh_def *def) {
     vn_faces faces = {.what = "mesh", .first = 1};
     int64_t corners;
     faces.xyz = read_vertices(L, &faces.vertices);
@@ -231,7 +231,7 @@ static void make_faces(lua_State *L, vn_domain **domain) {
     int32_t *sizes = read_sizes(L, list, faces.count, &corners);
     faces.sizes = sizes;
     faces.corners = read_corners(L, list, sizes, faces.count, corners);
-    vnl_try(L, vn_domain_faces(domain, &faces));
+    vnl_try(L, vn_domain_mesh_faces(domain, &faces, def));
 }
 
 static int make_mesh(lua_State *L) {
@@ -241,12 +241,21 @@ static int make_mesh(lua_State *L) {
     void **box = vnl_push_box(L, &vnl_domain_class);
     int result = lua_gettop(L);
     if (lua_istable(L, 1)) {
-        make_faces(L, (vn_domain **)box);
+        make_faces(L, (vn_domain **)box, &def);
     } else {
         const char *path = vnl_push_path(L, 1);
         vnl_try(L, vn_domain_mesh((vn_domain **)box, path, &def));
     }
     lua_settop(L, result);
+    return 1;
+}
+
+static int make_shell(lua_State *L) {
+    vn_shell_def def;
+    lua_settop(L, 1);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_read_options(L, 1, &vn_shell_schema, &def);
+    vnl_try(L, vn_domain_shell((vn_domain **)box, &def));
     return 1;
 }
 
@@ -270,14 +279,17 @@ const vnl_function vnl_domain_functions[] = {
      "(mesh: string|{vertices: number[][], faces: integer[][]}, options?: venule.mesh.Options): "
      "venule.Domain",
      NULL,
-     "The surface of a mesh in 3D: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} "
-     "and "
-     "of faces {a, b, c, …}, which count the vertices from 1. Veins grow along it: new nodes are brought "
-     "onto "
-     "it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight "
-     "ones "
-     "in space: `within` should be below the distance of folds.",
+     "The surface of a mesh in 3D, or with `on = \"inside\"` what it encloses: of an .obj, .off, .ply or "
+     ".stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices "
+     "from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or "
+     "jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be "
+     "below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a "
+     "cavity, whichever way their faces turn.",
      &vn_mesh_schema},
+    {"shell", make_shell, NULL, "venule.Domain",
+     "What of a domain is near its border: everything but a core that is `thickness` inside. Of a growing "
+     "domain, always of today's shape.",
+     &vn_shell_schema},
     {0},
 };
 

@@ -1,39 +1,12 @@
 // The surface of a mesh as a domain, and venation on surfaces that bend either way.
-#include "support.h"
+#include "mesh_support.h"
 
 #include "domain/domain.h"
 #include "domain/faces.h"
 #include "growth/growth.h"
 #include "space/triangle_tree.h"
 
-static const double pi = 3.141592653589793;
-
 // ---- Meshes ----
-
-typedef struct mesh {
-    VN_ARRAY(double) xyz;
-    vn_corners corners;
-} mesh;
-
-typedef void place_fn(double u, double v, double p[3]);
-
-static int32_t put_vertex(mesh *m, const double p[3]) {
-    for (int k = 0; k < 3; k++) {
-        assert_ok(vn_array_push(&m->xyz, p[k]));
-    }
-    return m->xyz.count / 3 - 1;
-}
-
-static void put_triangle(mesh *m, int32_t a, int32_t b, int32_t c) {
-    assert_ok(vn_array_push(&m->corners, a));
-    assert_ok(vn_array_push(&m->corners, b));
-    assert_ok(vn_array_push(&m->corners, c));
-}
-
-static void free_mesh(mesh *m) {
-    vn_array_free(&m->xyz);
-    vn_array_free(&m->corners);
-}
 
 static vn_domain *domain_of(mesh *m) {
     vn_domain *domain = NULL;
@@ -43,43 +16,12 @@ static vn_domain *domain_of(mesh *m) {
     return domain;
 }
 
-// A sheet over [0, 1]², n by m squares.
-static mesh sheet(place_fn *place, int n, int m) {
-    mesh s = {0};
-    for (int j = 0; j <= m; j++) {
-        for (int i = 0; i <= n; i++) {
-            double p[3];
-            place((double)i / n, (double)j / m, p);
-            put_vertex(&s, p);
-        }
-    }
-    for (int j = 0; j < m; j++) {
-        for (int i = 0; i < n; i++) {
-            int32_t a = j * (n + 1) + i;
-            put_triangle(&s, a, a + 1, a + n + 2);
-            put_triangle(&s, a, a + n + 2, a + n + 1);
-        }
-    }
-    return s;
-}
-
-static void set(double p[3], double x, double y, double z) {
-    p[0] = x;
-    p[1] = y;
-    p[2] = z;
-}
-
 static void flat(double u, double v, double p[3]) {
     set(p, 10 * u, 10 * v, 3);
 }
 
 static void uneven(double u, double v, double p[3]) {
     set(p, 7 * u * u + u, 5 * v * v * v + v, 2 * u);
-}
-
-static void on_sphere(double x, double y, double z, double radius, double p[3]) {
-    double length = sqrt(x * x + y * y + z * z);
-    set(p, radius * x / length, radius * y / length, radius * z / length);
 }
 
 // A cap of a sphere of radius 10, 60° to each side.
@@ -110,29 +52,6 @@ static void fold(double u, double v, double p[3]) {
     } else {
         set(p, 0.5 * gap * sin(angle), 10 * v, 0.5 * gap * (1 - cos(angle)));
     }
-}
-
-// An octahedron whose faces are cut and blown up.
-static mesh globe(int n, double radius) {
-    mesh m = {0};
-    for (int octant = 0; octant < 8; octant++) {
-        int sx = octant & 1 ? -1 : 1, sy = octant & 2 ? -1 : 1, sz = octant & 4 ? -1 : 1;
-        for (int i = 0; i <= n; i++) {
-            int32_t row = m.xyz.count / 3;
-            for (int j = 0; j <= i; j++) {
-                double p[3];
-                on_sphere(sx * (n - i), sy * (i - j), sz * j, radius, p);
-                put_vertex(&m, p);
-            }
-            for (int j = 0; i > 0 && j < i; j++) {
-                put_triangle(&m, row + j, row + j + 1, row - i + j);
-            }
-            for (int j = 0; i > 0 && j < i - 1; j++) {
-                put_triangle(&m, row - i + j, row - i + j + 1, row + j + 1);
-            }
-        }
-    }
-    return m;
 }
 
 // ---- What it answers ----
@@ -202,47 +121,6 @@ static void darts_are_spread_evenly_over_the_area(void **state) {
     assert_true(chi2 < 70);
     assert_true(chi2 > 12);
     vn_domain_release(domain);
-}
-
-static double to_segment(const double p[3], const double a[3], const double b[3]) {
-    double along = 0, length2 = vn_distance2(a, b), q[3];
-    for (int k = 0; k < 3; k++) {
-        along += (p[k] - a[k]) * (b[k] - a[k]);
-    }
-    along = fmin(fmax(along / length2, 0), 1);
-    for (int k = 0; k < 3; k++) {
-        q[k] = a[k] + along * (b[k] - a[k]);
-    }
-    return sqrt(vn_distance2(p, q));
-}
-
-static void cross_of(const double o[3], const double a[3], const double b[3], double n[3]) {
-    double u[3], v[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = a[k] - o[k];
-        v[k] = b[k] - o[k];
-    }
-    set(n, u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-}
-
-static double dot_of(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// The plane's distance over the triangle, elsewhere the nearest edge's.
-static double to_triangle(const double p[3], const vn_triangle *t) {
-    double n[3], n1[3], n2[3], n3[3], ap[3];
-    cross_of(t->a, t->b, t->c, n);
-    cross_of(p, t->a, t->b, n1);
-    cross_of(p, t->b, t->c, n2);
-    cross_of(p, t->c, t->a, n3);
-    if (dot_of(n, n1) > 0 && dot_of(n, n2) > 0 && dot_of(n, n3) > 0) {
-        for (int k = 0; k < 3; k++) {
-            ap[k] = p[k] - t->a[k];
-        }
-        return fabs(dot_of(ap, n)) / sqrt(dot_of(n, n));
-    }
-    return fmin(to_segment(p, t->a, t->b), fmin(to_segment(p, t->b, t->c), to_segment(p, t->c, t->a)));
 }
 
 static void the_nearest_triangle_is_the_one_that_all_agree_on(void **state) {

@@ -78,7 +78,7 @@ end
 function testWhatAScriptGetsWrongIsNamed()
   local corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}
   local mesh = venule.domain.mesh
-  fails(function() mesh({vertices = corners, faces = {{1, 2, 3}}}, {on = "inside"}) end, 'mesh.on = "inside" must be one of surface')
+  fails(function() mesh({vertices = corners, faces = {{1, 2, 3}}}, {on = "outside"}) end, 'mesh.on = "outside" must be one of surface|inside')
   fails(function() mesh {vertices = corners, faces = {{1, 2, 4}}} end, "mesh: face 1 has a corner at vertex 4, but the vertices are 1 to 3")
   fails(function() mesh {vertices = corners, faces = {{1, 2, 0}}} end, "corner at vertex 0")
   fails(function() mesh {vertices = corners, faces = {{1, 2, 2 ^ 53 | 0}}} end, "mesh: face 1 has a corner")
