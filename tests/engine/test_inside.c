@@ -179,26 +179,34 @@ static double nearest_of(const mesh *m, const double p[3]) {
     return least;
 }
 
-// Every coordinate is a vertex's half of the time: so lines along the axes pass through vertices, edges and
-// faces.
-static void place_somewhere(const mesh *m, const vn_box *box, vn_rng *rng, bool degenerate, double p[3]) {
+typedef enum placing { ANYWHERE, DEGENERATE, CLOSE, PLACINGS } placing;
+
+// Degenerate: most coordinates are a vertex's, or half of one's, so that lines along the axes pass through
+// vertices, edges and faces. Close: a little off a triangle.
+static void place_somewhere(const mesh *m, const vn_box *box, vn_rng *rng, placing how, double p[3]) {
+    int32_t triangle = (int32_t)whole(rng, 0, m->corners.count / 3 - 1);
+    double u = uniform(rng, 0, 1), v = uniform(rng, 0, 1 - u);
+    vn_triangle t = triangle_at(m, triangle);
     for (int k = 0; k < 3; k++) {
         double size = box->max[k] - box->min[k];
         p[k] = uniform(rng, box->min[k] - 0.2 * size, box->max[k] + 0.2 * size);
-        if (degenerate && whole(rng, 0, 3) > 0) {
+        if (how == DEGENERATE && whole(rng, 0, 3) > 0) {
             double other = m->xyz.data[3 * whole(rng, 0, m->xyz.count / 3 - 1) + k];
             p[k] = whole(rng, 0, 1) ? other : 0.5 * other + 0.5 * p[k];
+        }
+        if (how == CLOSE) {
+            p[k] = (1 - u - v) * t.a[k] + u * t.b[k] + v * t.c[k] + uniform(rng, -0.02, 0.02) * size;
         }
     }
 }
 
 // Returns how many were inside.
-static int check_points(const mesh *m, const vn_domain *domain, bool degenerate, int trials, vn_rng *rng) {
+static int check_points(const mesh *m, const vn_domain *domain, placing how, int trials, vn_rng *rng) {
     vn_box box = vn_domain_bounds(domain);
     int in = 0;
     for (int trial = 0; trial < trials; trial++) {
         double p[3], q[3];
-        place_somewhere(m, &box, rng, degenerate, p);
+        place_somewhere(m, &box, rng, how, p);
         double least = nearest_of(m, p), distance = vn_domain_distance(domain, p);
         assert_near(fabs(distance), least, 1e-12);
         vn_domain_closest(domain, p, q);
@@ -269,8 +277,9 @@ static void points_are_inside_where_the_mesh_winds_round_them(void **state) {
     for (int shape = 0; shape < SHAPES; shape++) {
         mesh m = shape_mesh(shape);
         vn_domain *domain = inside_of(&m);
-        assert_true(check_points(&m, domain, false, 3000, &rng) > 90);
-        assert_true(check_points(&m, domain, true, 3000, &rng) > 90);
+        for (placing how = ANYWHERE; how < PLACINGS; how++) {
+            assert_true(check_points(&m, domain, how, 3000, &rng) > 90);
+        }
         vn_domain_release(domain);
         free_mesh(&m);
     }
@@ -317,7 +326,7 @@ static void it_does_not_matter_how_triangles_turn(void **state) {
         assert_near(vn_domain_measure(turned), vn_domain_measure(plain), 1e-12 * vn_domain_measure(plain));
         for (int trial = 0; trial < 1000; trial++) {
             double p[3];
-            place_somewhere(&m, &box, &rng, trial % 2, p);
+            place_somewhere(&m, &box, &rng, (placing)(trial % PLACINGS), p);
             double distance = vn_domain_distance(plain, p);
             if (fabs(distance) > 1e-9) {
                 assert_near(vn_domain_distance(turned, p), distance, 1e-12);
@@ -361,7 +370,7 @@ static void parts_may_touch_in_edges_and_corners(void **state) {
         vn_domain *domain = inside_of(&m);
         assert_near(vn_domain_measure(domain), 2, 1e-12);
         vn_rng rng = vn_rng_make(4);
-        check_points(&m, domain, true, 2000, &rng);
+        check_points(&m, domain, DEGENERATE, 2000, &rng);
         vn_domain_release(domain);
         free_mesh(&m);
     }
@@ -450,22 +459,41 @@ static void lines_that_cross_no_triangle_are_free(void **state) {
     }
 }
 
-// In the step, the planes of its hollow corner are continued inside: lines in them are free.
+// So that boxes of triangles are full of what is beside them; quarters stay exact.
+static void slant(double p[3]) {
+    set(p, p[0] - 2 * p[2] + p[1], p[1] + p[0] + p[2], p[2] - p[1]);
+}
+
+static bool step_sees(const vn_domain *step, bool slanted, double x0, double y0, double x1, double y1) {
+    double p[3] = {x0, y0, 0.5}, q[3] = {x1, y1, 0.25};
+    if (slanted) {
+        slant(p);
+        slant(q);
+    }
+    bool sees = vn_domain_sees(step, p, q);
+    assert_int_equal(vn_domain_sees(step, q, p), sees);
+    return sees;
+}
+
+// In the step, the planes of its hollow edge are continued inside: lines in them are free.
 static void lines_in_the_plane_of_a_triangle_are_free_until_it_ends_them(void **state) {
     (void)state;
-    mesh m = step_mesh();
-    vn_domain *domain = inside_of(&m);
-    double left[3] = {0.25, 1, 0.5}, corner[3] = {1, 1, 0.5};
-    double low[3] = {1, 0.25, 0.5}, high[3] = {0.5, 1.5, 0.5}, side[3] = {1.5, 0.5, 0.5};
-    assert_true(vn_domain_sees(domain, left, (double[3]){0.75, 1, 0.25}));
-    assert_true(vn_domain_sees(domain, low, (double[3]){1, 0.75, 0.25}));
-    assert_true(vn_domain_sees(domain, left, corner)); // ends on the border
-    assert_true(vn_domain_sees(domain, low, corner));
-    assert_false(vn_domain_sees(domain, high, side)); // touches the hollow edge
-    assert_true(vn_domain_sees(domain, left, side));
-    assert_false(vn_domain_sees(domain, (double[3]){0.5, 1.75, 0.5}, (double[3]){1.75, 0.5, 0.5}));
-    vn_domain_release(domain);
-    free_mesh(&m);
+    for (int slanted = 0; slanted < 2; slanted++) {
+        mesh m = step_mesh();
+        for (int32_t i = 0; slanted && i < m.xyz.count; i += 3) {
+            slant(m.xyz.data + i);
+        }
+        vn_domain *step = inside_of(&m);
+        assert_true(step_sees(step, slanted, 0.25, 1, 0.75, 1));
+        assert_true(step_sees(step, slanted, 1, 0.25, 1, 0.75));
+        assert_true(step_sees(step, slanted, 0.25, 1, 1, 1)); // ends on the border
+        assert_true(step_sees(step, slanted, 1, 0.25, 1, 1));
+        assert_true(step_sees(step, slanted, 0.25, 1, 1.5, 0.5));
+        assert_false(step_sees(step, slanted, 0.5, 1.5, 1.5, 0.5)); // touches the hollow edge
+        assert_false(step_sees(step, slanted, 0.5, 1.75, 1.75, 0.5));
+        vn_domain_release(step);
+        free_mesh(&m);
+    }
 }
 
 // ---- Darts ----
