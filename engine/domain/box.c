@@ -64,13 +64,31 @@ static vn_status box_outline(const vn_domain *domain, int32_t sides, vn_rings *o
     return vn_rings_close(out);
 }
 
+// Corner i has the greatest x, y or z where its bits 1, 2 or 4 are set.
+static vn_status box_triangles(const vn_domain *domain, vn_triangles *out) {
+    static const int32_t corners[36] = {0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3, 0, 4, 5, 0, 5, 1,
+                                        2, 3, 7, 2, 7, 6, 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5};
+    for (int i = 0; i < 24; i++) {
+        bool high = i / 3 >> i % 3 & 1;
+        double at = high ? domain->bounds.max[i % 3] : domain->bounds.min[i % 3];
+        VN_TRY(vn_array_push(&out->xyz, at));
+    }
+    for (int i = 0; i < 36; i++) {
+        VN_TRY(vn_array_push(&out->corners, corners[i]));
+    }
+    return VN_OK;
+}
+
 static const vn_domain_kind flat_kind = {.name = "box",
                                          .contains = box_contains,
                                          .closest = box_closest,
                                          .sees = box_sees,
                                          .outline = box_outline};
-static const vn_domain_kind solid_kind = {
-    .name = "box", .contains = box_contains, .closest = box_closest, .sees = box_sees};
+static const vn_domain_kind solid_kind = {.name = "box",
+                                          .contains = box_contains,
+                                          .closest = box_closest,
+                                          .sees = box_sees,
+                                          .triangles = box_triangles};
 
 vn_status vn_domain_box(vn_domain **out, const vn_box_def *def) {
     *out = NULL;

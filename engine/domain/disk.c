@@ -66,13 +66,52 @@ static vn_status disk_outline(const vn_domain *domain, int32_t sides, vn_rings *
     return vn_rings_close(out);
 }
 
+enum { BALL_SIDES = 96 };
+
+static vn_status push_parallel(const disk *d, int row, vn_triangles *out) {
+    double above = PI * (2.0 * row / BALL_SIDES - 0.5);
+    for (int i = 0; i < BALL_SIDES; i++) {
+        double around = 2 * PI * i / BALL_SIDES;
+        const double away[3] = {cos(above) * cos(around), sin(above), cos(above) * sin(around)};
+        for (int k = 0; k < 3; k++) {
+            VN_TRY(vn_array_push(&out->xyz, d->center[k] + d->radius * away[k]));
+        }
+    }
+    return VN_OK;
+}
+
+// Two triangles between the parallels of @p row and the next, at each meridian.
+static vn_status push_belt(int row, vn_triangles *out) {
+    for (int i = 0; i < BALL_SIDES; i++) {
+        int32_t a = row * BALL_SIDES + i, b = row * BALL_SIDES + (i + 1) % BALL_SIDES;
+        const int32_t corners[6] = {a, a + BALL_SIDES, b, b, a + BALL_SIDES, b + BALL_SIDES};
+        for (int k = 0; k < 6; k++) {
+            VN_TRY(vn_array_push(&out->corners, corners[k]));
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status sphere_triangles(const vn_domain *domain, vn_triangles *out) {
+    for (int row = 0; row <= BALL_SIDES / 2; row++) {
+        VN_TRY(push_parallel((const disk *)domain, row, out));
+    }
+    for (int row = 0; row < BALL_SIDES / 2; row++) {
+        VN_TRY(push_belt(row, out));
+    }
+    return VN_OK;
+}
+
 static const vn_domain_kind disk_kind = {.name = "disk",
                                          .contains = disk_contains,
                                          .closest = disk_closest,
                                          .sees = convex_sees,
                                          .outline = disk_outline};
-static const vn_domain_kind sphere_kind = {
-    .name = "sphere", .contains = disk_contains, .closest = disk_closest, .sees = convex_sees};
+static const vn_domain_kind sphere_kind = {.name = "sphere",
+                                           .contains = disk_contains,
+                                           .closest = disk_closest,
+                                           .sees = convex_sees,
+                                           .triangles = sphere_triangles};
 
 static vn_status make(vn_domain **out, const vn_disk_def *def, const vn_domain_kind *kind, int dim) {
     *out = NULL;

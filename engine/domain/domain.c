@@ -220,3 +220,18 @@ double vn_domain_measure_by_points(const vn_domain *domain) {
     }
     return size * inside / POINTS;
 }
+
+void vn_triangles_free(vn_triangles *triangles) {
+    vn_array_free(&triangles->xyz);
+    vn_array_free(&triangles->corners);
+}
+
+vn_status vn_domain_triangles(const vn_domain *domain, vn_triangles *out) {
+    if (domain->kind->triangles == NULL) {
+        return vn_fail(
+            VN_INVALID,
+            "a domain of the kind \"%s\" has no surface of triangles; meshes, balls and boxes have",
+            domain->kind->name);
+    }
+    return domain->kind->triangles(domain, out);
+}

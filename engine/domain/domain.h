@@ -21,6 +21,13 @@ typedef struct vn_margin {
     void (*grown)(const vn_domain *domain, vn_box *bounds, double *measure); ///< the largest shape's
 } vn_margin;
 
+/// A surface: corners are numbers of points, three a triangle, in any orientation.
+typedef struct vn_triangles {
+    VN_ARRAY(double) xyz; ///< three numbers a point
+    VN_ARRAY(int32_t) corners;
+} vn_triangles;
+void vn_triangles_free(vn_triangles *triangles);
+
 /// The functions of one kind of domain; those marked so may be NULL.
 typedef struct vn_domain_kind {
     const char *name;
@@ -44,6 +51,9 @@ typedef struct vn_domain_kind {
     /// Of surfaces: the nearest point @p q; false when @p p lies beyond the border. NULL: the domain is as
     /// thick as its space.
     bool (*snap)(const vn_domain *domain, const double p[3], double q[3]);
+    /// The surface of what is in space, appended to an empty @p out; round ones to within a thousandth of
+    /// their radius. NULL where nobody can tell.
+    vn_status (*triangles)(const vn_domain *domain, vn_triangles *out);
 } vn_domain_kind;
 
 /// The head of every kind's own structure.
@@ -75,6 +85,10 @@ double vn_domain_measure_by_points(const vn_domain *domain);
 /// Bring @p p onto the domain where that is a surface; elsewhere, and where @p p is beyond the border,
 /// nothing happens. Whether it is where it has to be.
 bool vn_domain_snap(const vn_domain *domain, double p[3]);
+
+/// Its surface as triangles, into an empty @p out that the caller frees even after a failure. VN_INVALID
+/// where the kind has none to give.
+vn_status vn_domain_triangles(const vn_domain *domain, vn_triangles *out);
 
 /// What vn_domain_dart() fails with.
 vn_status vn_domain_fail_dart(const vn_domain *domain);

@@ -272,13 +272,25 @@ static void surface_destroy(vn_domain *domain) {
     vn_triangle_tree_free(&s->border);
 }
 
+static vn_status surface_triangles(const vn_domain *domain, vn_triangles *out) {
+    const surface *s = surface_of(domain);
+    VN_TRY(vn_array_reserve(&out->xyz, s->xyz.count));
+    VN_TRY(vn_array_reserve(&out->corners, s->corners.count));
+    memcpy(out->xyz.data, s->xyz.data, (size_t)s->xyz.count * sizeof *s->xyz.data);
+    memcpy(out->corners.data, s->corners.data, (size_t)s->corners.count * sizeof *s->corners.data);
+    out->xyz.count = s->xyz.count;
+    out->corners.count = s->corners.count;
+    return VN_OK;
+}
+
 static const vn_domain_kind surface_kind = {.name = "surface",
                                             .destroy = surface_destroy,
                                             .contains = surface_contains,
                                             .closest = surface_closest,
                                             .sees = surface_sees,
                                             .dart = surface_dart,
-                                            .snap = surface_snap};
+                                            .snap = surface_snap,
+                                            .triangles = surface_triangles};
 
 static void include_place(vn_box *box, const double p[3]) {
     for (int k = 0; k < 3; k++) {

@@ -13,8 +13,8 @@ typedef struct chain_maker {
     const double *x, *y;
     const int32_t *parent, *orders;
     int32_t count;
-    VN_ARRAY(double) widths; // of each node's edge, view units
-    VN_ARRAY(int32_t) heirs; // the child that continues a node's vein; -1: none; join_heir(): a join
+    vn_widths widths;
+    vn_heirs heirs; // join_heir() where a join continues a node's vein
 } chain_maker;
 
 // The width on the canvas. A thousandth of a pixel nobody sees, so sums that differ in their last bits
@@ -39,31 +39,33 @@ static int32_t node_order(const chain_maker *maker, int32_t node) {
     return maker->orders != NULL ? maker->orders[node] : 0;
 }
 
-static vn_status edge_width(const chain_maker *maker, int32_t node, double *width) {
-    const vn_stroke_def *def = maker->def;
+static vn_status edge_width(const vn_network *network, const vn_stroke_def *def, int32_t node,
+                            double *width) {
     if (def->widths == NULL) {
-        *width = def->width > 0 ? def->width : 2 * vn_network_radius(maker->network, node);
+        *width = def->width > 0 ? def->width : 2 * vn_network_radius(network, node);
         return VN_OK;
     }
     *width = def->widths[node];
-    if (maker->parent[node] >= 0 && !(isfinite(*width) && *width >= 0)) {
+    if (vn_network_parent(network)[node] >= 0 && !(isfinite(*width) && *width >= 0)) {
         return vn_fail(VN_INVALID, "stroke.widths: that of node %d is %g; give 0 or more", node, *width);
     }
     return VN_OK;
 }
 
-static vn_status find_widths(chain_maker *maker) {
+vn_status vn_stroke_widths(const vn_network *network, const vn_stroke_def *def, vn_widths *widths) {
+    const int32_t *parent = vn_network_parent(network);
+    int32_t count = vn_network_count(network);
     double widest = 0;
     int32_t edges = 0;
-    VN_TRY(vn_array_zero(&maker->widths, maker->count));
-    for (int32_t i = 0; i < maker->count; i++) {
-        VN_TRY(edge_width(maker, i, &maker->widths.data[i]));
-        if (maker->parent[i] >= 0) {
-            widest = fmax(widest, maker->widths.data[i]);
+    VN_TRY(vn_array_zero(widths, count));
+    for (int32_t i = 0; i < count; i++) {
+        VN_TRY(edge_width(network, def, i, &widths->data[i]));
+        if (parent[i] >= 0) {
+            widest = fmax(widest, widths->data[i]);
             edges++;
         }
     }
-    if (edges > 0 && widest == 0 && maker->def->widths == NULL) {
+    if (edges > 0 && widest == 0 && def->widths == NULL) {
         return vn_fail(VN_INVALID,
                        "stroke: the network's radii are not known; give stroke.width, or have radii by "
                        "Murray's law first");
@@ -71,20 +73,36 @@ static vn_status find_widths(chain_maker *maker) {
     return VN_OK;
 }
 
-static vn_status find_heirs(chain_maker *maker) {
-    VN_TRY(vn_array_zero(&maker->heirs, maker->count));
-    int32_t *heirs = maker->heirs.data;
-    const double *widths = maker->widths.data;
-    for (int32_t i = 0; i < maker->count; i++) {
-        heirs[i] = -1;
+vn_status vn_find_heirs(const vn_network *network, const vn_widths *widths, vn_heirs *heirs) {
+    const int32_t *parents = vn_network_parent(network);
+    int32_t count = vn_network_count(network);
+    VN_TRY(vn_array_reserve(heirs, count));
+    heirs->count = count;
+    for (int32_t i = 0; i < count; i++) {
+        heirs->data[i] = -1;
     }
-    for (int32_t i = 0; i < maker->count; i++) {
-        int32_t parent = maker->parent[i];
-        if (parent >= 0 && (heirs[parent] < 0 || widths[i] > widths[heirs[parent]])) {
-            heirs[parent] = i;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t parent = parents[i];
+        if (parent >= 0 && (heirs->data[parent] < 0 || widths->data[i] > widths->data[heirs->data[parent]])) {
+            heirs->data[parent] = i;
         }
     }
     return VN_OK;
+}
+
+vn_join_line vn_join_line_at(const vn_network *network, const vn_stroke_def *def, const vn_widths *widths,
+                             int32_t join) {
+    vn_join_line line;
+    double radius;
+    vn_network_join_ends(network, join, &line.a, &line.b, &radius);
+    if (def->widths == NULL && def->width > 0) {
+        line.width = def->width;
+    } else if (def->widths == NULL && radius > 0) {
+        line.width = 2 * radius;
+    } else {
+        line.width = fmin(widths->data[line.a], widths->data[line.b]);
+    }
+    return line;
 }
 
 // Whether the edge of @p node goes on the vein of the edge before it.
@@ -98,10 +116,19 @@ static bool tapers(const chain_maker *maker, int32_t node) {
     return continues(maker, node) && node_width(maker, node) != node_width(maker, maker->parent[node]);
 }
 
+static vn_color node_color(const chain_maker *maker, int32_t node) {
+    return maker->def->colors != NULL ? vn_color_of_rgb(maker->def->colors[node]) : (vn_color){0};
+}
+
+static bool same_color(const chain_maker *maker, int32_t a, int32_t b) {
+    return maker->def->colors == NULL || maker->def->colors[a] == maker->def->colors[b];
+}
+
 // Whether the chain that the edge of @p node is part of also holds that of its heir.
 static bool goes_on(const chain_maker *maker, int32_t node, int32_t heir) {
     return heir >= 0 && node_width(maker, heir) == node_width(maker, node) &&
-           node_order(maker, heir) == node_order(maker, node) && !is_hidden(maker, maker->widths.data[heir]);
+           node_order(maker, heir) == node_order(maker, node) && same_color(maker, heir, node) &&
+           !is_hidden(maker, maker->widths.data[heir]);
 }
 
 static bool begins(const chain_maker *maker, int32_t node) {
@@ -122,6 +149,7 @@ static vn_status push_piece(chain_maker *maker, vn_piece piece) {
 static vn_status push_taper(chain_maker *maker, int32_t node) {
     int32_t parent = maker->parent[node];
     vn_piece piece = {.begin = maker->canvas->points.count, .order = node_order(maker, node)};
+    piece.color = node_color(maker, node);
     piece.width = node_width(maker, parent);
     piece.end_width = node_width(maker, node);
     VN_TRY(push_point(maker, parent));
@@ -134,36 +162,22 @@ static int32_t join_heir(int32_t join) {
     return -2 - join;
 }
 
-typedef struct join_ends {
-    int32_t a, b;
-    double width; // view units
-} join_ends;
-
-// Where a join's radius is not known it is as thin as the thinner of its ends.
-static join_ends join_at(const chain_maker *maker, int32_t join) {
-    join_ends ends;
-    double radius;
-    vn_network_join_ends(maker->network, join, &ends.a, &ends.b, &radius);
-    if (maker->def->widths == NULL && maker->def->width > 0) {
-        ends.width = maker->def->width;
-    } else if (maker->def->widths == NULL && radius > 0) {
-        ends.width = 2 * radius;
-    } else {
-        ends.width = fmin(maker->widths.data[ends.a], maker->widths.data[ends.b]);
-    }
-    return ends;
+static vn_join_line join_at(const chain_maker *maker, int32_t join) {
+    return vn_join_line_at(maker->network, maker->def, &maker->widths, join);
 }
 
 // Whether the chain of the edge of @p node, drawn as one width, goes on over the join that continues its
 // vein.
 static bool takes_in(const chain_maker *maker, int32_t node, int32_t join) {
-    double width = join_at(maker, join).width;
-    return !is_hidden(maker, width) && drawn_width(maker, width) == node_width(maker, node) &&
-           vn_network_join_order(maker->network, join) == node_order(maker, node) && !tapers(maker, node);
+    vn_join_line line = join_at(maker, join);
+    return !is_hidden(maker, line.width) && drawn_width(maker, line.width) == node_width(maker, node) &&
+           vn_network_join_order(maker->network, join) == node_order(maker, node) &&
+           same_color(maker, line.b, node) && !tapers(maker, node);
 }
 
 static vn_status push_chain(chain_maker *maker, int32_t node) {
     vn_piece piece = {.begin = maker->canvas->points.count, .order = node_order(maker, node)};
+    piece.color = node_color(maker, node);
     piece.width = piece.end_width = node_width(maker, node);
     VN_TRY(push_point(maker, maker->parent[node]));
     VN_TRY(push_point(maker, node));
@@ -207,9 +221,10 @@ static bool has_lawful_joins(const chain_maker *maker) {
 }
 
 // A join that is thicker than all children continues the vein that it leaves.
-static vn_status push_join(chain_maker *maker, int32_t join, const join_ends *ends, bool continues) {
+static vn_status push_join(chain_maker *maker, int32_t join, const vn_join_line *ends, bool continues) {
     vn_piece piece = {.begin = maker->canvas->points.count};
     piece.order = vn_network_join_order(maker->network, join);
+    piece.color = node_color(maker, ends->b);
     piece.width = piece.end_width = drawn_width(maker, ends->width);
     if (continues) {
         piece.width = node_width(maker, ends->a);
@@ -222,7 +237,7 @@ static vn_status push_join(chain_maker *maker, int32_t join, const join_ends *en
 static vn_status push_joins(chain_maker *maker) {
     int32_t count = vn_network_join_count(maker->network);
     for (int32_t i = 0; i < count; i++) {
-        join_ends ends = join_at(maker, i);
+        vn_join_line ends = join_at(maker, i);
         if (is_hidden(maker, ends.width)) {
             continue;
         }
@@ -247,7 +262,7 @@ static double heir_width(const chain_maker *maker, int32_t node) {
 static void find_join_heirs(chain_maker *maker) {
     int32_t count = has_lawful_joins(maker) ? vn_network_join_count(maker->network) : 0;
     for (int32_t i = 0; i < count; i++) {
-        join_ends ends = join_at(maker, i);
+        vn_join_line ends = join_at(maker, i);
         if (ends.width > heir_width(maker, ends.a)) {
             maker->heirs.data[ends.a] = join_heir(i);
         }
@@ -336,8 +351,8 @@ static vn_status sort_layers(vn_piece *pieces, int32_t count) {
 }
 
 static vn_status make_chains(chain_maker *maker) {
-    VN_TRY(find_widths(maker));
-    VN_TRY(find_heirs(maker));
+    VN_TRY(vn_stroke_widths(maker->network, maker->def, &maker->widths));
+    VN_TRY(vn_find_heirs(maker->network, &maker->widths, &maker->heirs));
     find_join_heirs(maker);
     VN_TRY(push_edges(maker));
     return push_joins(maker);

@@ -1,7 +1,11 @@
+#include "draw/eps_head.h"
+#include "draw/marks.h"
 #include "draw/png_writer.h"
 #include "draw/taper.h"
 
 #include <cairo-pdf.h>
+#include <cairo-ps.h>
+#include <math.h>
 
 // Pieces of one width go into one path until it has this many points. A PDF of a million strokes took
 // 230 s one by one and 5 s so; much longer paths are slower in an image, whose scan converter sorts all the
@@ -102,7 +106,8 @@ static void trace_taper(cairo_t *cr, const vn_canvas *canvas, const vn_piece *pi
 static int32_t fill_batch(cairo_t *cr, const vn_canvas *canvas, int32_t begin, int32_t end) {
     const vn_piece *pieces = canvas->pieces.data;
     int32_t i = begin;
-    while (i < end && 2 * (i - begin) < BATCH_POINTS && vn_piece_tapers(&pieces[i])) {
+    while (i < end && 2 * (i - begin) < BATCH_POINTS && vn_piece_tapers(&pieces[i]) &&
+           vn_same_color(pieces[i].color, pieces[begin].color)) {
         trace_taper(cr, canvas, &pieces[i]);
         i++;
     }
@@ -120,7 +125,7 @@ static int32_t stroke_batch(cairo_t *cr, const vn_canvas *canvas, int32_t begin,
         points += pieces[i].count;
         i++;
     } while (i < end && points < BATCH_POINTS && !vn_piece_tapers(&pieces[i]) &&
-             pieces[i].width == pieces[begin].width);
+             vn_piece_is_like(&pieces[i], &pieces[begin]));
     cairo_set_line_width(cr, pieces[begin].width);
     cairo_stroke(cr);
     return i;
@@ -134,6 +139,9 @@ static vn_status paint_pieces(cairo_t *cr, const vn_canvas *canvas, const vn_ite
             polled = i;
         }
         bool tapers = vn_piece_tapers(&canvas->pieces.data[i]);
+        if (item->colored) {
+            set_color(cr, canvas->pieces.data[i].color);
+        }
         i = tapers ? fill_batch(cr, canvas, i, item->end) : stroke_batch(cr, canvas, i, item->end);
     }
     return VN_OK;
@@ -155,14 +163,41 @@ static vn_status paint_dots(cairo_t *cr, const vn_canvas *canvas, const vn_item 
     return VN_OK;
 }
 
+static void fill_area(void *cr, const vn_spot *ring, int32_t count, vn_color color) {
+    set_color(cr, color);
+    cairo_move_to(cr, ring[0].x, ring[0].y);
+    for (int32_t i = 1; i < count; i++) {
+        cairo_line_to(cr, ring[i].x, ring[i].y);
+    }
+    cairo_fill(cr);
+}
+
+static vn_status paint_scene(cairo_t *cr, const vn_canvas *canvas, const vn_item *item) {
+    for (int32_t i = item->begin; i < item->end; i++) {
+        if (i % POLL_EVERY == 0) {
+            VN_TRY(vn_poll());
+        }
+        vn_mark_paint(canvas, &canvas->marks.data[i], fill_area, cr);
+    }
+    return VN_OK;
+}
+
+static void choose_font(cairo_t *cr, double size) {
+    cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr, size);
+}
+
 static vn_status paint_text(cairo_t *cr, const vn_canvas *canvas, const vn_item *item) {
     cairo_text_extents_t extents;
     vn_spot spot = canvas->points.data[item->begin];
-    cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cr, item->size);
+    choose_font(cr, item->size);
     cairo_text_extents(cr, item->text, &extents);
-    cairo_move_to(cr, spot.x - 0.5 * item->anchor * extents.x_advance, spot.y);
+    cairo_save(cr);
+    cairo_translate(cr, spot.x, spot.y);
+    cairo_rotate(cr, -item->angle * 3.14159265358979323846 / 180);
+    cairo_move_to(cr, -0.5 * item->anchor * extents.x_advance, 0);
     cairo_show_text(cr, item->text);
+    cairo_restore(cr);
     cairo_new_path(cr);
     return VN_OK;
 }
@@ -175,6 +210,8 @@ static vn_status paint_parts(cairo_t *cr, const vn_canvas *canvas, const vn_item
         return paint_pieces(cr, canvas, item);
     case VN_ITEM_DOTS:
         return paint_dots(cr, canvas, item);
+    case VN_ITEM_SCENE:
+        return paint_scene(cr, canvas, item);
     default:
         return paint_text(cr, canvas, item);
     }
@@ -262,6 +299,24 @@ vn_status vn_canvas_write_png(const vn_canvas *canvas, vn_sink *sink, const char
     return status;
 }
 
+vn_status vn_text_width(double *out, const char *text, double size) {
+    *out = 0;
+    vn_text clean = {0};
+    VN_TRY(vn_clean_text(&clean, text));
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t *cr = cairo_create(surface);
+    cairo_text_extents_t extents = {0};
+    set_font_options(cr);
+    choose_font(cr, size);
+    cairo_text_extents(cr, clean.data, &extents);
+    vn_status status = check_cairo(cairo_status(cr));
+    *out = extents.x_advance;
+    cairo_destroy(cr);
+    cairo_surface_destroy(surface);
+    vn_array_free(&clean);
+    return status;
+}
+
 static cairo_status_t write_bytes(void *sink, const unsigned char *bytes, unsigned count) {
     return vn_sink_write(sink, bytes, count) == VN_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
@@ -278,13 +333,10 @@ static void set_metadata(cairo_surface_t *surface, const char *manifest) {
     }
 }
 
-vn_status vn_canvas_write_pdf(const vn_canvas *canvas, vn_sink *sink, const char *manifest) {
-    double point = canvas->meters_a_pixel * 72 / 0.0254;
-    cairo_surface_t *surface =
-        cairo_pdf_surface_create_for_stream(write_bytes, sink, canvas->width * point, canvas->height * point);
-    vn_status status = check_cairo(cairo_surface_status(surface));
+// Paint the pages' one and only, and destroy the surface.
+static vn_status finish_page(cairo_surface_t *surface, const vn_canvas *canvas, double point,
+                             vn_status status) {
     if (status == VN_OK) {
-        set_metadata(surface, manifest);
         status = paint(surface, canvas, point);
     }
     cairo_surface_finish(surface);
@@ -293,4 +345,36 @@ vn_status vn_canvas_write_pdf(const vn_canvas *canvas, vn_sink *sink, const char
     }
     cairo_surface_destroy(surface);
     return status;
+}
+
+static double points_a_pixel(const vn_canvas *canvas) {
+    return canvas->meters_a_pixel * 72 / 0.0254;
+}
+
+vn_status vn_canvas_write_pdf(const vn_canvas *canvas, vn_sink *sink, const char *manifest) {
+    double point = points_a_pixel(canvas);
+    cairo_surface_t *surface =
+        cairo_pdf_surface_create_for_stream(write_bytes, sink, canvas->width * point, canvas->height * point);
+    vn_status status = check_cairo(cairo_surface_status(surface));
+    if (status == VN_OK) {
+        set_metadata(surface, manifest);
+    }
+    return finish_page(surface, canvas, point, status);
+}
+
+static cairo_status_t filter_bytes(void *filter, const unsigned char *bytes, unsigned count) {
+    return vn_eps_write(filter, (const char *)bytes, count) == VN_OK ? CAIRO_STATUS_SUCCESS
+                                                                     : CAIRO_STATUS_WRITE_ERROR;
+}
+
+vn_status vn_canvas_write_eps(const vn_canvas *canvas, vn_sink *sink, const char *manifest) {
+    vn_eps_filter filter = {.sink = sink};
+    double point = points_a_pixel(canvas), width = canvas->width * point, height = canvas->height * point;
+    cairo_surface_t *surface = cairo_ps_surface_create_for_stream(filter_bytes, &filter, width, height);
+    vn_status status = check_cairo(cairo_surface_status(surface));
+    if (status == VN_OK) {
+        cairo_ps_surface_set_eps(surface, 1);
+        status = vn_eps_comment(surface, width, height, manifest);
+    }
+    return vn_eps_end(&filter, finish_page(surface, canvas, point, status));
 }

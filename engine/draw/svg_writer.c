@@ -1,3 +1,4 @@
+#include "draw/marks.h"
 #include "draw/taper.h"
 
 // Points of chains are rounded to 0.01 pixels, tapers finer: where an arc is almost half a circle, its ends
@@ -114,17 +115,16 @@ static void put_spot(svg_pen *pen, vn_spot spot, int decimals) {
 }
 
 // "M x y l dx dy dx dy …". Places are rounded before differences are taken, so that rounding does not add up.
-static void put_polyline(svg_pen *pen, const vn_canvas *canvas, const vn_piece *piece) {
-    const vn_spot *spots = canvas->points.data + piece->begin;
+static void put_ring(svg_pen *pen, const vn_spot *spots, int32_t count) {
     int64_t x = steps_of(spots[0].x, pen->decimals);
     int64_t y = steps_of(spots[0].y, pen->decimals);
     bool moved = false;
     put_byte(pen, 'M');
     put_pair(pen, x, y, pen->decimals);
-    for (int32_t i = 1; i < piece->count; i++) {
+    for (int32_t i = 1; i < count; i++) {
         int64_t dx = steps_of(spots[i].x, pen->decimals) - x;
         int64_t dy = steps_of(spots[i].y, pen->decimals) - y;
-        if (dx == 0 && dy == 0 && (moved || i + 1 < piece->count)) {
+        if (dx == 0 && dy == 0 && (moved || i + 1 < count)) {
             continue; // but one segment stays, if only for its round ends
         }
         if (!moved || dx >= 0) {
@@ -135,6 +135,10 @@ static void put_polyline(svg_pen *pen, const vn_canvas *canvas, const vn_piece *
         x += dx;
         y += dy;
     }
+}
+
+static void put_polyline(svg_pen *pen, const vn_canvas *canvas, const vn_piece *piece) {
+    put_ring(pen, canvas->points.data + piece->begin, piece->count);
 }
 
 static void put_chain(svg_pen *pen, const vn_canvas *canvas, const vn_piece *piece, bool with_width) {
@@ -154,8 +158,9 @@ static void put_arc(svg_pen *pen, double radius, bool large, vn_spot to) {
     put_spot(pen, to, FINE_DECIMALS);
 }
 
-static void put_circle(svg_pen *pen, vn_spot center, double radius) {
+static void put_circle(svg_pen *pen, vn_spot center, double radius, vn_color color) {
     put(pen, "<circle");
+    put_color(pen, "fill", color);
     put_attribute(pen, "cx", center.x, FINE_DECIMALS);
     put_attribute(pen, "cy", center.y, FINE_DECIMALS);
     put_attribute(pen, "r", radius, FINE_DECIMALS);
@@ -165,11 +170,13 @@ static void put_circle(svg_pen *pen, vn_spot center, double radius) {
 static void put_taper(svg_pen *pen, const vn_canvas *canvas, const vn_piece *piece) {
     vn_taper taper = vn_taper_of(canvas, piece);
     if (taper.whole >= 0) {
-        put_circle(pen, taper.center[taper.whole], taper.radius[taper.whole]);
+        put_circle(pen, taper.center[taper.whole], taper.radius[taper.whole], piece->color);
         return;
     }
     bool narrows = taper.radius[0] > taper.radius[1];
-    put(pen, "<path d=\"M");
+    put(pen, "<path");
+    put_color(pen, "fill", piece->color);
+    put(pen, " d=\"M");
     put_spot(pen, vn_taper_spot(&taper, 0, taper.axis + taper.turn), FINE_DECIMALS);
     put_arc(pen, taper.radius[0], narrows, vn_taper_spot(&taper, 0, taper.axis - taper.turn));
     put_byte(pen, 'L');
@@ -181,10 +188,11 @@ static void put_taper(svg_pen *pen, const vn_canvas *canvas, const vn_piece *pie
 // Chains [begin, end) of one width: several share a group, which is shorter than a width on each.
 static vn_status put_run(svg_pen *pen, const vn_canvas *canvas, int32_t begin, int32_t end) {
     const vn_piece *pieces = canvas->pieces.data;
-    bool grouped = end - begin > 1;
+    bool grouped = end - begin > 1 || pieces[begin].color.alpha > 0;
     if (grouped) {
         put(pen, "<g");
         put_attribute(pen, "stroke-width", pieces[begin].width, FINE_DECIMALS);
+        put_color(pen, "stroke", pieces[begin].color);
         put(pen, ">\n");
     }
     for (int32_t i = begin; i < end && pen->status == VN_OK; i++) {
@@ -201,7 +209,7 @@ static vn_status put_chains(svg_pen *pen, const vn_canvas *canvas, int32_t begin
     const vn_piece *pieces = canvas->pieces.data;
     while (begin < end) {
         int32_t run = begin + 1;
-        while (run < end && pieces[run].width == pieces[begin].width) {
+        while (run < end && vn_piece_is_like(&pieces[run], &pieces[begin])) {
             run++;
         }
         VN_TRY(put_run(pen, canvas, begin, run));
@@ -331,10 +339,44 @@ static vn_status put_dots(svg_pen *pen, const vn_canvas *canvas, const vn_item *
         if (i % POLL_EVERY == 0) {
             VN_TRY(vn_poll());
         }
-        put_circle(pen, canvas->points.data[i], item->size);
+        put_circle(pen, canvas->points.data[i], item->size, (vn_color){0});
     }
     put(pen, "</g>\n");
     return pen->status;
+}
+
+// One area of a scene: "<path fill="#…" d="M…z"/>".
+static void put_area(void *payload, const vn_spot *ring, int32_t count, vn_color color) {
+    svg_pen *pen = payload;
+    put(pen, "<path");
+    put_color(pen, "fill", color);
+    put(pen, " d=\"");
+    put_ring(pen, ring, count);
+    put(pen, "z\"/>\n");
+}
+
+static vn_status put_scene(svg_pen *pen, const vn_canvas *canvas, const vn_item *item) {
+    open_layer(pen, "scene");
+    put_opacity(pen, item->opacity);
+    put(pen, ">\n");
+    for (int32_t i = item->begin; i < item->end && pen->status == VN_OK; i++) {
+        if (i % POLL_EVERY == 0) {
+            VN_TRY(vn_poll());
+        }
+        vn_mark_paint(canvas, &canvas->marks.data[i], put_area, pen);
+    }
+    put(pen, "</g>\n");
+    return pen->status;
+}
+
+static void put_turn(svg_pen *pen, const vn_canvas *canvas, const vn_item *item) {
+    if (item->angle != 0) {
+        put(pen, " transform=\"rotate(");
+        put_fixed(pen, -item->angle, FINE_DECIMALS);
+        put_byte(pen, ' ');
+        put_spot(pen, canvas->points.data[item->begin], FINE_DECIMALS);
+        put(pen, ")\"");
+    }
 }
 
 static vn_status put_text(svg_pen *pen, const vn_canvas *canvas, const vn_item *item) {
@@ -345,6 +387,7 @@ static vn_status put_text(svg_pen *pen, const vn_canvas *canvas, const vn_item *
     put_attribute(pen, "font-size", item->size, FINE_DECIMALS);
     put_attribute(pen, "x", canvas->points.data[item->begin].x, FINE_DECIMALS);
     put_attribute(pen, "y", canvas->points.data[item->begin].y, FINE_DECIMALS);
+    put_turn(pen, canvas, item);
     put_color(pen, "fill", item->color);
     put_opacity(pen, alpha_of(item));
     put_byte(pen, '>');
@@ -362,6 +405,8 @@ static vn_status put_item(svg_pen *pen, const vn_canvas *canvas, const vn_item *
         return alpha_of(item) > 0 ? put_stroke(pen, canvas, item) : VN_OK;
     case VN_ITEM_DOTS:
         return alpha_of(item) > 0 ? put_dots(pen, canvas, item) : VN_OK;
+    case VN_ITEM_SCENE:
+        return item->opacity > 0 ? put_scene(pen, canvas, item) : VN_OK;
     default:
         return alpha_of(item) > 0 ? put_text(pen, canvas, item) : VN_OK;
     }

@@ -13,6 +13,18 @@ extern "C" {
 
 typedef struct vn_canvas vn_canvas;
 
+/// How a canvas looks at space. Points whose coordinates are NaN are not given.
+typedef struct vn_camera_def {
+    double from[3]; ///< the eye; not given: a little from the right and above, as far as shows the whole view
+    double to[3];   ///< what is in the middle of the picture; not given: the middle of the view
+    double up[3];   ///< what is up in the picture; not given: y
+    double fov;  ///< angle that the canvas's shorter side shows, less its margins: 0 to 150 degrees; default
+                 ///< 30. 0: a parallel projection, which shows the whole view
+    double zoom; ///< enlarges the picture about its middle; > 0; default 1
+    double fog;  ///< how much of the background covers what is farthest in the view: 0 (the default) to 1
+} vn_camera_def;
+VN_API vn_camera_def vn_camera_def_default(void);
+
 typedef struct vn_canvas_def {
     double width;  ///< pixels, 1 to 32,767; 0: from the height and the view's proportions, or 800
     double height; ///< likewise
@@ -22,13 +34,17 @@ typedef struct vn_canvas_def {
     const char *background; ///< a colour, or "none"; default "none"
     const char *unit; ///< length unit of the view: "mm", "cm", "m", "um", "in", "pt". Pages (SVG, PDF) are
                       ///< then at true scale; "" (the default): 96 pixels an inch
+    const vn_camera_def *camera; ///< NULL (the default): from straight above, without depth: x to the right
+                                 ///< and y up, whatever z. With a camera the view has three dimensions, scale
+                                 ///< and unit hold at the depth of what it looks at, and what is behind it
+                                 ///< is not drawn
 } vn_canvas_def;
 VN_API vn_canvas_def vn_canvas_def_default(void);
 VN_API vn_status vn_canvas_create(vn_canvas **out, const vn_canvas_def *def);
 VN_API void vn_canvas_destroy(vn_canvas *canvas);
 VN_API double vn_canvas_width(const vn_canvas *canvas);
 VN_API double vn_canvas_height(const vn_canvas *canvas);
-/// Pixels to one unit of the view's length.
+/// Pixels to one unit of the view's length; with a camera, of what it looks at.
 VN_API double vn_canvas_scale(const vn_canvas *canvas);
 
 /// Colours are "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", or one of CSS's sixteen basic names.
@@ -40,19 +56,28 @@ typedef struct vn_fill_def {
     double line_width;  ///< of the outline, in view units; default 0: one pixel
 } vn_fill_def;
 VN_API vn_fill_def vn_fill_def_default(void);
-/// Fill a 2D domain.
+/// Fill a 2D domain. Through a camera also the surface of a solid one that has triangles (meshes, balls,
+/// boxes), shaded; at an opacity below 1 one sees what was drawn before, but no back side.
 VN_API vn_status vn_canvas_fill(vn_canvas *canvas, const vn_domain *domain, const vn_fill_def *def);
 
 typedef struct vn_stroke_def {
-    const char *color;    ///< default "#2f4f2a"
-    double opacity;       ///< 0 to 1; default 1
-    double width;         ///< of all edges, in view units; 0 (the default): twice each edge's radius
-    const double *widths; ///< or the width of each node's edge, one entry a node; borrowed during the call
-    double min_width;     ///< no edge is drawn thinner than this, pixels; default 0.3
-    double hide_below;    ///< edges thinner than this are left out, pixels, 0 or more; default 0: none is
+    const char *color;      ///< default "#2f4f2a"
+    double opacity;         ///< 0 to 1; default 1
+    double width;           ///< of all edges, in view units; 0 (the default): twice each edge's radius
+    const double *widths;   ///< or the width of each node's edge, one entry a node; borrowed during the call
+    double min_width;       ///< no edge is drawn thinner than this, pixels; default 0.3
+    double hide_below;      ///< edges thinner than this are left out, pixels, 0 or more; default 0: none is
+    const uint32_t *colors; ///< or the colour of each node's edge, 0xRRGGBB, one entry a node; borrowed
+    const double *values;   ///< or one number a node, whose edge has its colour in the ramp; what is not
+                            ///< finite has `color`; borrowed
+    const char *column;     ///< or the name of such a column: "radius" or "flow" (by their logarithm),
+                            ///< "order", "tree", "birth", "pressure"
+    const char *ramp;       ///< colours between spaces, from the least number's to the greatest's, evenly
 } vn_stroke_def;
 VN_API vn_stroke_def vn_stroke_def_default(void);
-/// Draw a network's edges and joins with round ends, tapered where a vein's radius changes.
+/// Draw a network's edges and joins with round ends, tapered where a vein's radius changes. Through a camera
+/// they are tubes, shaded across their width and painted from far to near, together with other networks and
+/// dots that were drawn right before, if all are opaque.
 /// VN_INVALID when the width is to be the radius and no radii are known.
 VN_API vn_status vn_canvas_stroke(vn_canvas *canvas, const vn_network *network, const vn_stroke_def *def);
 
@@ -62,9 +87,21 @@ typedef struct vn_dots_def {
     double radius;     ///< view units; default 0: two pixels
 } vn_dots_def;
 VN_API vn_dots_def vn_dots_def_default(void);
-/// A dot at each of @p count points.
-VN_API vn_status vn_canvas_dots(vn_canvas *canvas, const double *x, const double *y, int32_t count,
-                                const vn_dots_def *def);
+/// A dot at each of @p count points; @p z may be NULL, and is only looked at by a camera. Through one, dots
+/// with a radius are balls.
+VN_API vn_status vn_canvas_dots(vn_canvas *canvas, const double *x, const double *y, const double *z,
+                                int32_t count, const vn_dots_def *def);
+
+typedef struct vn_line_def {
+    const char *color; ///< default "#222222"; "none": only the inside is painted
+    double opacity;    ///< 0 to 1; default 1
+    double width;      ///< pixels, > 0; default 1
+    const char *fill;  ///< colour of the inside of a line that is then closed; default "none"
+} vn_line_def;
+VN_API vn_line_def vn_line_def_default(void);
+/// A line through @p count points with round ends and corners; @p z may be NULL. Two points or more.
+VN_API vn_status vn_canvas_line(vn_canvas *canvas, const double *x, const double *y, const double *z,
+                                int32_t count, const vn_line_def *def);
 
 typedef struct vn_text_def {
     double at[3];      ///< where, in view units
@@ -72,13 +109,18 @@ typedef struct vn_text_def {
     double size;       ///< height of the letters, pixels; default 14
     double opacity;    ///< 0 to 1; default 1
     int anchor;        ///< 0 start, 1 middle, 2 end
+    double angle;      ///< the line of text is turned by it counterclockwise, degrees; default 0
 } vn_text_def;
 VN_API vn_text_def vn_text_def_default(void);
 /// One line of UTF-8 in DejaVu Sans.
 VN_API vn_status vn_canvas_text(vn_canvas *canvas, const char *text, const vn_text_def *def);
 
-/// Write the picture: .png, .svg or .pdf by the extension of @p path. @p manifest (JSON, may be NULL) goes
-/// inside. VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
+/// How long a text of vn_canvas_text() is at @p size, pixels.
+VN_API vn_status vn_text_width(double *out, const char *text, double size);
+
+/// Write the picture: .png, .svg, .pdf or .eps by the extension of @p path. In EPS what is half-transparent
+/// becomes pixels, 300 an inch; all else stays lines and areas. @p manifest (JSON, may be NULL) goes inside.
+/// VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
 VN_API vn_status vn_canvas_save(const vn_canvas *canvas, const char *path, const char *manifest);
 
 /// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names

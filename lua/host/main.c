@@ -12,7 +12,7 @@ static const char help_text[] =
     "Venule grows veins: leaf venation, blood vessels, anything that branches to fill a space.\n"
     "\n"
     "  venule run SCRIPT [options]   run a scenario (`venule SCRIPT` is the same)\n"
-    "      -o FILE                   write the result there: .svg, .png, .pdf, .json; may be repeated\n"
+    "      -o FILE                   write the result there: .svg, .png, .pdf, .eps, .json; may be repeated\n"
     "      --set NAME=VALUE          set one of the script's parameters; may be repeated\n"
     "      --params FILE             set parameters from a JSON file {\"name\": value, ...}\n"
     "      --seed N                  the same as --set seed=N\n"

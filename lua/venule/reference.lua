@@ -12,7 +12,7 @@ local functions = {
   {name = "tell_stall", owner = "venule", arguments = "", types = {}, doc =
     "Say on stderr, once, why the last `extend` added nothing although attractors are left; `result` and `run` do it too."},
   {name = "result", owner = "venule", arguments = "options", types = {options = "venule.result.Options"}, rows = "result", doc =
-    "Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); "
+    "Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf, .eps: the picture; .json: the networks); "
     .. "without one, a file called after the script."},
   {name = "venation", owner = "venule", arguments = "options", types = {options = "venule.venation.Options"}, rows = "venation",
     returns = "venule.Venation", doc =

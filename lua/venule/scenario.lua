@@ -163,6 +163,7 @@ local result_rows = {
   {"margin", nil, type = "number", min = 0, unit = "pixels", doc = "kept free around the view"},
   {"view", nil, type = "any", doc = "bounds of what it shows; left out: those of the networks"},
   {"background", nil, type = "string", doc = "of the canvas that picture is given"},
+  {"camera", nil, type = "table", doc = "of the canvas that picture is given: how to look at space"},
   {"unit", nil, type = "string", doc = "length unit of the view; left out: the view's own, or the network's"},
 }
 
@@ -176,20 +177,28 @@ local function networks_of(r)
   return list
 end
 
-local function extent_of(networks)
+-- A straight line has room about it.
+local function widen(min, max, dim)
+  local size = 0
+  for k = 1, dim do size = math.max(size, max[k] - min[k]) end
+  local pad = size > 0 and size / 20 or 1
+  for k = 1, dim do
+    if max[k] == min[k] then min[k], max[k] = min[k] - pad, max[k] + pad end
+  end
+end
+
+local function extent_of(networks, dim)
   local min, max
   for _, network in ipairs(networks) do
     local extent = network:measure().extent
-    min = min and {math.min(min[1], extent.min[1]), math.min(min[2], extent.min[2])} or extent.min
-    max = max and {math.max(max[1], extent.max[1]), math.max(max[2], extent.max[2])} or extent.max
+    min, max = min or {table.unpack(extent.min)}, max or {table.unpack(extent.max)}
+    for k = 1, dim do
+      min[k], max[k] = math.min(min[k] or 0, extent.min[k] or 0), math.max(max[k] or 0, extent.max[k] or 0)
+    end
   end
   if not min then return nil end
-  local size = math.max(max[1] - min[1], max[2] - min[2])
-  local pad = size > 0 and size / 20 or 1
-  for k = 1, 2 do
-    if max[k] == min[k] then min[k], max[k] = min[k] - pad, max[k] + pad end -- a straight line has room about it
-  end
-  return {min = {min[1], min[2]}, max = {max[1], max[2]}}
+  widen(min, max, dim)
+  return {min = {table.unpack(min, 1, dim)}, max = {table.unpack(max, 1, dim)}}
 end
 
 -- What a page can be measured in. A network may count in cells or pixels: then its picture has no true scale.
@@ -204,9 +213,10 @@ end
 
 local function draw(r)
   if type(r.picture) == "userdata" then return r.picture end
-  local view = r.view or extent_of(networks_of(r))
+  local view = r.view or extent_of(networks_of(r), r.camera and 3 or 2)
   local canvas = venule.canvas {
     width = r.width, height = r.height, margin = r.margin, view = view, background = r.background, unit = r.unit or unit_of(r, view),
+    camera = r.camera,
   }
   if r.picture then
     r.picture(canvas)
@@ -219,7 +229,7 @@ local function draw(r)
   return canvas
 end
 
-local pictures = {png = true, svg = true, pdf = true}
+local pictures = {png = true, svg = true, pdf = true, eps = true}
 
 local function default_outputs(r)
   local stem = (file_name(host.script) or "venule"):gsub("%.lua$", "")
@@ -233,7 +243,7 @@ end
 -- Before the run begins: nobody waits an hour to hear that a file cannot be of that kind.
 for _, path in ipairs(host.outputs) do
   if not pictures[extension_of(path)] and extension_of(path) ~= "json" then
-    fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf and .json"):format(path))
+    fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf, .eps and .json"):format(path))
   end
 end
 

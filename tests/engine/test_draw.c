@@ -226,7 +226,7 @@ static void a_canvas_without_a_view_begins_at_its_lower_left(void **state) {
     vn_canvas *canvas = canvas_of(40, 30);
     vn_dots_def def = vn_dots_def_default();
     double x = 5, y = 4;
-    assert_ok(vn_canvas_dots(canvas, &x, &y, 1, &def));
+    assert_ok(vn_canvas_dots(canvas, &x, &y, NULL, 1, &def));
     picture made = save_picture(canvas);
     assert_int_equal(alpha_at(&made, 5, 26), 255);
     assert_int_equal(alpha_at(&made, 5, 4), 0);
@@ -570,7 +570,7 @@ static vn_status draw_all(vn_canvas *canvas, const vn_network *network, const vn
     stroke.opacity = 0.7;
     VN_TRY(vn_canvas_fill(canvas, domain, &fill));
     VN_TRY(vn_canvas_stroke(canvas, network, &stroke));
-    VN_TRY(vn_canvas_dots(canvas, x, y, 2, &dots));
+    VN_TRY(vn_canvas_dots(canvas, x, y, NULL, 2, &dots));
     return vn_canvas_text(canvas, "fig. 1", &text);
 }
 
@@ -708,10 +708,10 @@ static void what_cannot_be_drawn_leaves_the_list_as_it_was(void **state) {
     assert_message("radii are not known");
     stroke.widths = widths;
     assert_int_equal(vn_canvas_stroke(canvas, network, &stroke), VN_INVALID);
-    assert_int_equal(vn_canvas_dots(canvas, x, y, 2, &dots), VN_INVALID);
+    assert_int_equal(vn_canvas_dots(canvas, x, y, NULL, 2, &dots), VN_INVALID);
     assert_message("point 1");
     dots.opacity = 1.5;
-    assert_int_equal(vn_canvas_dots(canvas, y, y, 2, &dots), VN_INVALID);
+    assert_int_equal(vn_canvas_dots(canvas, y, y, NULL, 2, &dots), VN_INVALID);
     assert_message("dots.opacity = 1.5");
     assert_int_equal(canvas->items.count, 0);
     assert_int_equal(canvas->pieces.count, 0);

@@ -185,8 +185,8 @@ local function picture()
   return page
 end
 
-local starts = {png = "^\137PNG\r\n\26\n", svg = "^<%?xml", pdf = "^%%PDF%-"}
-local ends = {png = "IEND\174B`\130$", svg = "</svg>%s*$", pdf = "%%%%EOF%s*$"}
+local starts = {png = "^\137PNG\r\n\26\n", svg = "^<%?xml", pdf = "^%%PDF%-", eps = "^%%!PS%-Adobe%-3.0 EPSF%-3.0\n"}
+local ends = {png = "IEND\174B`\130$", svg = "</svg>%s*$", pdf = "%%%%EOF%s*$", eps = "%%%%EOF%s*$"}
 
 function TestFiles:testPicturesAreTheSameTwice()
   for kind, start in pairs(starts) do
@@ -235,17 +235,17 @@ end
 function TestFiles:testUnknownExtensions()
   local page, net = picture(), grown(2, 4)
   local path = temporary "leaf.gif"
-  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg or .pdf")
+  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg, .pdf or .eps")
   path = temporary "leaf"
-  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg or .pdf")
+  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg, .pdf or .eps")
   path = temporary "leaf.png.x"
-  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg or .pdf")
+  fails(function() page:save(path) end, path .. ": a picture is written as .png, .svg, .pdf or .eps")
   assert_folder_holds()
 end
 
 function TestFiles:testAFolderThatIsNotThere()
   local path = base .. "/none/leaf"
-  for _, extension in ipairs {"png", "svg", "pdf"} do
+  for _, extension in ipairs {"png", "svg", "pdf", "eps"} do
     local name = path .. "." .. extension
     local page = picture()
     fails(function() page:save(name) end, name .. ": cannot be written: No such file or directory")

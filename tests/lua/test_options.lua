@@ -163,6 +163,14 @@ local tables = {
     unit = {kind = "text", doc = "length unit of the view: \"mm\", \"cm\", \"m\", \"um\", \"in\" or \"pt\"; pages (SVG, PDF) " ..
       "are then at true scale; \"\": 96 pixels an inch"},
   },
+  camera = {
+    call = function(o) venule.canvas {camera = o, view = {min = {0, 0, 0}, max = {1, 1, 1}}} end, optional = true,
+    from = {kind = "point"}, to = {kind = "point"}, up = {kind = "point"},
+    fov = {kind = "number", min = 0, max = 150, unit = "degrees",
+      doc = "angle that the canvas's shorter side shows, less its margins; 0: a parallel projection"},
+    zoom = {kind = "number", above = 0, max = 1e6, doc = "enlarges the picture about its middle"},
+    fog = {kind = "number", min = 0, max = 1, doc = "how much what is farthest in the view fades into the background"},
+  },
   fill = {
     call = function(o) canvas():fill(disk(), o) end, optional = true,
     color = {kind = "text", doc = "colour of the inside, or \"none\""},
@@ -176,6 +184,7 @@ local tables = {
     opacity = {kind = "number", min = 0, max = 1, doc = "0 is invisible, 1 hides what is behind; veins that cross do not darken each other"},
     min_width = {kind = "number", min = 0, max = 32767, unit = "pixels",
       doc = "no edge is drawn thinner than this, so that the finest veins do not vanish"},
+    ramp = {kind = "text", doc = "colours between spaces, from that of the least number to that of the greatest"},
     hide_below = {kind = "number", min = 0, max = 32767, unit = "pixels",
       doc = "edges thinner than this are left out, so that a large network makes a small file; 0: none is"},
   },
@@ -185,8 +194,16 @@ local tables = {
     opacity = {kind = "number", min = 0, max = 1, doc = "0 is invisible, 1 hides what is behind; dots that overlap do not darken each other"},
     radius = {kind = "number", min = 0, max = 1e300, unit = "length", doc = "of each dot; 0: two pixels"},
   },
+  line = {
+    call = function(o) canvas():line({{1, 1}, {2, 2}}, o) end, optional = true,
+    color = {kind = "text", doc = "colour of the line, or \"none\""},
+    opacity = {kind = "number", min = 0, max = 1, doc = "0 is invisible, 1 hides what is behind"},
+    width = {kind = "number", above = 0, max = 32767, unit = "pixels", doc = "of the line"},
+    fill = {kind = "text", doc = "colour of the inside of a line that is then closed, or \"none\""},
+  },
   text = {
     call = function(o) canvas():text("a", o) end, optional = true,
+    angle = {kind = "number", min = -360, max = 360, unit = "degrees", doc = "by which the line is turned, counterclockwise"},
     at = {kind = "point"},
     color = {kind = "text", doc = "colour of the letters"},
     size = {kind = "number", above = 0, max = 32767, unit = "pixels", doc = "height of the letters"},
