@@ -60,9 +60,9 @@ typedef enum vn_item_kind {
 typedef struct vn_item {
     vn_item_kind kind;
     vn_color color;
-    vn_color outline;   ///< of a fill
-    double opacity;     ///< of the whole item; the colour's own alpha comes on top
-    double size;        ///< pixels: a fill's line width, the dots' radius, the letters' height
+    vn_color outline; ///< of a fill
+    double opacity;   ///< of the whole item; the colour's own alpha comes on top
+    double size; ///< pixels: a fill's or line's width, the dots' radius, the letters' height; 0: a network
     int32_t begin, end; ///< pieces of a fill or stroke; points of dots; the point of a text; marks of a scene
     bool layered;       ///< a stroke whose pieces have vein orders, sorted by them
     bool colored;       ///< a stroke whose pieces have colours of their own

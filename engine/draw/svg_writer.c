@@ -288,7 +288,7 @@ static double alpha_of(const vn_item *item) {
 }
 
 static vn_status put_stroke(svg_pen *pen, const vn_canvas *canvas, const vn_item *item) {
-    open_layer(pen, "network");
+    open_layer(pen, item->size > 0 ? "line" : "network");
     put(pen, " fill=\"none\"");
     put_color(pen, "stroke", item->color);
     put(pen, " stroke-linecap=\"round\" stroke-linejoin=\"round\"");

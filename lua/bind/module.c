@@ -199,6 +199,7 @@ int luaopen_venule(lua_State *L) {
     preload_embedded(L);
     merge_embedded(L, "venule.scenario");
     merge_embedded(L, "venule.leaf");
+    merge_embedded(L, "venule.plot");
     merge_embedded(L, "venule.veinlets");
     merge_embedded(L, "venule.venation");
     merge_embedded(L, "venule.brochidodromous");

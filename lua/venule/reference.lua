@@ -26,6 +26,11 @@ local functions = {
     rows = "brochidodromous", returns = "{network: venule.Network, arches: integer}", doc =
     "A midvein and secondaries that are joined in arches within the margin (Ficus, Eucalyptus), as a network to go on from: "
     .. "scripts/brochidodromous.lua fills it by venule.venation."},
+  {name = "plot", owner = "venule", arguments = "options", types = {options = "venule.plot.Options"}, rows = "plot",
+    returns = "venule.Canvas", doc =
+    "Numbers as a figure, on a canvas to save or draw on: lines and dots, deviations as bars or bands, plain or logarithmic axes. "
+    .. "A legend stands where it covers nothing. The fields of an axis are `venule.plot_axis_rows`, those of a series "
+    .. "`venule.plot_series_rows`."},
 }
 
 local leaf_functions = {
