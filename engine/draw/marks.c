@@ -16,7 +16,7 @@ double vn_light_on(const double n[3]) {
 
 static const double LEAST_OVERLAP = 0.3, MORE_OVERLAP = 1;
 
-enum { MOST_BANDS = 24, MOST_CORNERS = 48, MOST_ARC = 10 };
+enum { MOST_BANDS = 40, MOST_CORNERS = 48, MOST_ARC = 10 };
 
 typedef struct brush {
     const vn_mark *mark;

@@ -9,7 +9,7 @@
 
 // A stretch of an edge comes nearer by at most so many pixels, or by its radius; no edge has more of them.
 static const double LONGEST_RISE = 4;
-enum { MOST_STRETCHES = 256, POLL_EVERY = 16384 };
+enum { MOST_STRETCHES = 256, MOST_IN_REACH = 32, POLL_EVERY = 16384 };
 
 // A bend is left without a ball where the gap on its outer side is no wider than this, pixels: stretches
 // overlap a little.
@@ -224,8 +224,42 @@ static bool is_straight(const tube *in, const tube *out, double radius) {
     return radius * sqrt(turn) < LARGEST_GAP;
 }
 
-// The ball in which a vein turns or ends. It is painted before the tubes on either side of it, which leave
-// just that of it uncovered which is seen; what shines there is in the same light as they are.
+static double distance2(const double a[3], const double b[3]) {
+    return square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2]);
+}
+
+// The least depth of what a vein has within @p reach of a node on its way on, or on its way back. Where edges
+// are much shorter than they are thick, some of it is not looked at.
+static double depth_in_reach(const scene_maker *maker, int32_t node, bool back, double reach) {
+    const double *middle = seen_at(maker, node);
+    double least = INFINITY;
+    for (int i = 0; i < MOST_IN_REACH; i++) {
+        int32_t next = back ? maker->parent[node] : maker->heirs.data[node];
+        int32_t edge = back ? node : next;
+        if (!is_drawn(maker, edge)) {
+            break;
+        }
+        const double *a = seen_at(maker, node), *b = seen_at(maker, next);
+        least = fmin(least, fmin(a[2], b[2]) + 0.5 * maker->widths.data[edge]);
+        if (distance2(b, middle) > square(reach) || (back && maker->heirs.data[next] != node)) {
+            break;
+        }
+        node = next;
+    }
+    return least;
+}
+
+// A ball in a bend comes before one at an end that is near: what of it is beyond that end is not seen.
+static double ball_depth(const scene_maker *maker, int32_t node, bool bend) {
+    double reach = (bend ? 1 : 0.5) * width_at(maker, node);
+    double least = fmin(depth_in_reach(maker, node, true, reach), depth_in_reach(maker, node, false, reach));
+    least = nextafter(least, -INFINITY);
+    return bend ? nextafter(least, -INFINITY) : least;
+}
+
+// The ball in which a vein turns or ends. It is painted before what the vein has in the ball's reach, and
+// that leaves just so much of it uncovered as is seen; what shines there is in the same light as the tubes
+// are.
 static vn_status push_ball(scene_maker *maker, int32_t node) {
     const double *seen = seen_at(maker, node);
     double width = width_at(maker, node);
@@ -240,9 +274,7 @@ static vn_status push_ball(scene_maker *maker, int32_t node) {
         return VN_OK;
     }
     vn_mark mark = {.kind = VN_MARK_BALL, .radius = {(float)radius, (float)radius}};
-    mark.depth =
-        fmin(comes ? depth_of(&in, in.stretches - 1) : INFINITY, goes ? depth_of(&out, 0) : INFINITY);
-    mark.depth = nextafter(mark.depth, -INFINITY);
+    mark.depth = ball_depth(maker, node, comes && goes);
     mark.at[0] = spot_of(&maker->canvas->camera, seen);
     mark.color = comes ? in.color : out.color;
     mark.haze = (float)vn_camera_haze(&maker->canvas->camera, seen[2]);

@@ -649,6 +649,37 @@ static void a_tube_is_shaded_across_its_width(void **state) {
     vn_canvas_destroy(canvas);
 }
 
+// Edges shorter than they are thick, at a slant, that become thinner and turn a little at each node: the
+// balls at the nodes must not show on what follows.
+static void no_ball_shows_within_a_thick_vein(void **state) {
+    (void)state;
+    vn_camera_def camera = from_the_front();
+    for (int away = -1; away <= 1; away += 2) {
+        vn_network *network = empty_network(3);
+        double widths[15];
+        int32_t node = root_at(network, 0, 70, 0);
+        for (int i = 0; i < 15; i++) {
+            widths[i] = 60 - 2 * i;
+        }
+        for (int i = 1; i < 15; i++) {
+            node = child_at(network, node, 0.3 * (i % 2), 70 - 8 * i, away * (6 * i + 0.3 * (i % 2)));
+        }
+        vn_stroke_def def = vn_stroke_def_default();
+        def.color = "#c04030";
+        def.widths = widths;
+        vn_canvas *canvas = canvas_with(&camera, "none");
+        assert_ok(vn_canvas_stroke(canvas, network, &def));
+        picture made = take_picture(canvas);
+        for (int y = 66; y > -36; y--) {
+            int step = light_of(pixel(&made, 0, y)) - light_of(pixel(&made, 0, y - 1));
+            assert_in_range(step + 70, 0, 140); // bands shine a little, a ball would by more
+        }
+        free(made.rgba);
+        vn_canvas_destroy(canvas);
+        vn_network_destroy(network);
+    }
+}
+
 static void fog_fades_what_is_far_into_the_background(void **state) {
     (void)state;
     const double x[] = {-50, 50}, y[] = {0, 0}, z[] = {-100, 100};
@@ -1064,6 +1095,7 @@ int main(void) {
         cmocka_unit_test(a_bent_tube_leaves_no_gap_and_no_blob),
         cmocka_unit_test(nearer_is_wider),
         cmocka_unit_test(a_tube_is_shaded_across_its_width),
+        cmocka_unit_test(no_ball_shows_within_a_thick_vein),
         cmocka_unit_test(fog_fades_what_is_far_into_the_background),
         cmocka_unit_test(nothing_behind_the_eye_is_drawn),
         cmocka_unit_test(a_solid_domain_is_a_shaded_film),
