@@ -445,21 +445,28 @@ static vn_status sort_keys(vn_keyed_array *order, const vn_mark *marks, int32_t 
     return status;
 }
 
+static vn_status permute_marks(vn_mark *marks, const vn_keyed_array *order) {
+    VN_ARRAY(vn_mark) sorted = {0};
+    VN_TRY(vn_array_reserve(&sorted, order->count));
+    for (int32_t i = 0; i < order->count; i++) {
+        sorted.data[i] = marks[order->data[i].value];
+    }
+    // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): there are marks, so there is room for them
+    memcpy(marks, sorted.data, (size_t)order->count * sizeof *marks);
+    vn_array_free(&sorted);
+    return VN_OK;
+}
+
 static vn_status sort_marks(vn_mark *marks, int32_t count) {
     vn_keyed_array order = {0};
-    VN_ARRAY(vn_mark) sorted = {0};
-    vn_status status = count > 0 ? sort_keys(&order, marks, count) : VN_OK;
+    if (count == 0) {
+        return VN_OK;
+    }
+    vn_status status = sort_keys(&order, marks, count);
     if (status == VN_OK) {
-        status = vn_array_reserve(&sorted, count);
-    }
-    for (int32_t i = 0; status == VN_OK && i < count; i++) {
-        sorted.data[i] = marks[order.data[i].value];
-    }
-    if (status == VN_OK && count > 0) {
-        memcpy(marks, sorted.data, (size_t)count * sizeof *marks);
+        status = permute_marks(marks, &order);
     }
     vn_array_free(&order);
-    vn_array_free(&sorted);
     return status;
 }
 
@@ -474,5 +481,6 @@ vn_status vn_scene_close(vn_canvas *canvas, int32_t begin, double opacity) {
     vn_item item = {.kind = VN_ITEM_SCENE, .opacity = opacity, .begin = begin, .end = canvas->marks.count};
     item.color.alpha = 255;
     VN_TRY(sort_marks(canvas->marks.data + begin, canvas->marks.count - begin));
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): pushing makes the room
     return vn_array_push(&canvas->items, item);
 }
