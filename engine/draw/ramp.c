@@ -76,6 +76,15 @@ typedef struct columns {
     const double *real;
 } columns;
 
+static bool has_radii(const vn_network *network) {
+    for (int32_t i = 0; i < vn_network_count(network); i++) {
+        if (vn_network_radius(network, i) > 0) {
+            return true;
+        }
+    }
+    return vn_network_count(network) == 0;
+}
+
 static vn_status find_column(columns *found, const vn_network *network, int which) {
     switch (which) {
     case 1:
@@ -98,7 +107,8 @@ static vn_status find_column(columns *found, const vn_network *network, int whic
         return found->real != NULL ? VN_OK
                                    : vn_fail(VN_INVALID, "stroke.color_by = \"pressure\": none is known");
     default:
-        return VN_OK;
+        return has_radii(network) ? VN_OK
+                                  : vn_fail(VN_INVALID, "stroke.color_by = \"radius\": no radii are known");
     }
 }
 

@@ -50,6 +50,13 @@ static const char scenario[] =
     "page:stroke(veins, {width = function(node) return 0.1 * veins.radius[node] end})\n"
     "page:dots(eaten)\n"
     "page:text('leaf', {at = {0, 1}})\n"
+    "page:line({{0, 0}, {1, 1}, {2, 0}}, {fill = 'red'})\n"
+    "local ball = venule.domain.sphere {}\n"
+    "local space = venule.canvas {view = ball:bounds(), width = 60, camera = {fog = 0.5}}\n"
+    "space:fill(ball, {opacity = 0.5})\n"
+    "space:stroke(veins, {width = 0.1, color_by = 'birth'})\n"
+    "space:stroke(veins, {width = 0.1, color_by = function() return 'red' end})\n"
+    "space:save(folder .. '/space.svg')\n"
     "veins:save(folder .. '/leaf.json')\n"
     "for kind, content in pairs {nrrd = 'segment', ['nii.gz'] = 'vesselness'} do\n"
     "  local voxels = venule.voxels {networks = {a = veins}, size = 9, content = content, bounds = "
@@ -213,8 +220,8 @@ static int make_folder(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    static const char *const names[] = {"leaf.json", "leaf.svg", "leaf.png",    "leaf.pdf",
-                                        "both.json", "page.svg", "leaf.nii.gz", "leaf.nrrd"};
+    static const char *const names[] = {"leaf.json", "leaf.svg", "leaf.png",    "leaf.pdf", "both.json",
+                                        "page.svg",  "space.svg", "leaf.nii.gz", "leaf.nrrd"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[64];
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);

@@ -444,6 +444,39 @@ function testMixedFields()
   fails(function() canvas():stroke(net(), {width = INF}) end, "stroke.width = inf must be above 0 and finite (length)")
 end
 
+function testCameras()
+  local cube = {min = {0, 0, 0}, max = {1, 1, 1}}
+  fails(function() venule.canvas {camera = 3, view = cube} end, "camera: a table of options {…} expected, got number")
+  fails(function() venule.canvas {camera = {form = {1, 1, 1}}, view = cube} end, 'camera: unknown field "form", did you mean "from"?')
+  fails(function() venule.canvas {camera = {}} end, "canvas.camera: a camera without `from` needs canvas.view, the bounds of what is to be seen")
+  fails(function() venule.canvas {camera = {from = {1, 2, INF}}, view = cube} end, "camera.from = (1, 2, inf) must be finite, and within 1e100")
+  fails(function() venule.canvas {camera = {from = {1, 2, 3}, to = {1, 2, 3}}} end, "camera.from and camera.to are both (1, 2, 3): the eye must be elsewhere")
+  fails(function() venule.canvas {camera = {from = {0, 0, 9}, to = {0, 0, 0}, up = {0, 0, 1}}} end,
+    "camera.up = (0, 0, 1) is the direction from `to` to `from`: give another one")
+  fails(function() canvas():fill(domain.sphere {}) end, "fill: a domain of 3 dimensions has no area to fill; give a flat one, or the canvas a camera")
+  local page = venule.canvas {width = 90, camera = {fov = 0}, view = cube}
+  lu.assertEquals({page.width, page.height}, {90, 90})
+  fails(function() page:fill(domain.sphere {} - domain.sphere {radius = 0.5}) end,
+    'a domain of the kind "combination" has no surface of triangles; meshes, balls and boxes have')
+end
+
+function testWhatColoursTell()
+  local n = net()
+  n:add(n:root(0, 0), 1, 1)
+  for _, by in ipairs {"tree", "birth", {1, 2}, {"red", "#00f"}, {NAN, INF}, function(i) return i end, function() return "teal" end} do
+    canvas():stroke(n, {width = 1, color_by = by})
+  end
+  fails(function() canvas():stroke(n, {width = 1, color_by = 3}) end, "stroke.color_by: the name of a column, a list or a function of the node expected, got number")
+  fails(function() canvas():stroke(n, {width = 1, color_by = "colour"}) end, 'stroke.color_by = "colour" must be one of radius|order|tree|birth|flow|pressure')
+  fails(function() canvas():stroke(n, {width = 1, color_by = "order"}) end, 'stroke.color_by = "order": no orders are known; compute them first')
+  fails(function() canvas():stroke(n, {width = 1, color_by = "radius"}) end, 'stroke.color_by = "radius": no radii are known')
+  fails(function() canvas():stroke(n, {width = 1, color_by = {1}}) end, "stroke.color_by: number expected, got nil")
+  fails(function() canvas():stroke(n, {width = 1, color_by = {"red", 2}}) end, "stroke.color_by: that of node 2: a colour expected, as before, got number")
+  fails(function() canvas():stroke(n, {width = 1, color_by = {"red", "none"}}) end, 'stroke.color_by: that of node 2 = "none" must be opaque; opacity holds for all')
+  fails(function() canvas():stroke(n, {width = 1, color_by = "tree", ramp = "red"}) end, "stroke.ramp has 1 colours: give two or more, between spaces")
+  fails(function() canvas():stroke(n, {width = 1, color_by = function() n:add(1, 2, 2) return 1 end}) end, "stroke.color_by: the function must not change the network")
+end
+
 function testColours()
   fails(function() canvas():fill(disk(), {color = "gren"}) end, 'fill.color = "gren" is no colour (did you mean "green"?): give "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", one of the basic CSS names such as "teal", or "none"')
   fails(function() venule.canvas {background = "#12345"} end, 'canvas.background = "#12345" is no colour: give "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", one of the basic CSS names such as "teal", or "none"')
