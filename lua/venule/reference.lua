@@ -29,8 +29,7 @@ local functions = {
   {name = "plot", owner = "venule", arguments = "options", types = {options = "venule.plot.Options"}, rows = "plot",
     returns = "venule.Canvas", doc =
     "Numbers as a figure, on a canvas to save or draw on: lines and dots, deviations as bars or bands, plain or logarithmic axes. "
-    .. "A legend stands where it covers nothing. The fields of an axis are `venule.plot_axis_rows`, those of a series "
-    .. "`venule.plot_series_rows`."},
+    .. "A legend stands where it covers nothing. What an axis and a series may say is below."},
 }
 
 local leaf_functions = {
@@ -92,6 +91,11 @@ local function write_function(f)
 end
 
 for _, f in ipairs(functions) do write_function(f) end
+
+page[#page + 1] = "\nAn axis of a plot:\n"
+write_rows("plot.axis", venule.plot_axis_rows)
+page[#page + 1] = "\nA series of a plot:\n"
+write_rows("plot.series", venule.plot_series_rows)
 
 page[#page + 1] = "\n## venule.leaf\n\nBlades with their petiole at (0, 0) and their tip at (0, length). All but `lobed` are "
   .. "star-shaped about the petiole: `venule.growth.marginal {domain = …, origin = {0, 0}}` takes them.\n"
