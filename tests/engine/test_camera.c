@@ -1,176 +1,8 @@
-// Space through a camera: places against matrices, depth and colours in pixels read back, and files that are
-// well-formed.
+// Space through a camera: places against matrices, depth and shades in pixels read back.
 #include "domain/domain.h"
-#include "draw/canvas.h"
-#include "draw/ramp.h"
-
-#include <libxml/parser.h>
-#include <libxml/tree.h>
-#include <math.h>
-#include <png.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "scenes.h"
 
 static const double pi = 3.141592653589793;
-
-#define assert_ok(call) assert_int_equal((call), VN_OK)
-#define assert_message(part) assert_non_null(strstr(vn_message(), (part)))
-
-static void assert_near(double value, double expected, double tolerance) {
-    if (!(fabs(value - expected) <= tolerance)) {
-        fail_msg("%.9g is not within %g of %.9g", value, tolerance, expected);
-    }
-}
-
-static void set_point(double to[3], double x, double y, double z) {
-    to[0] = x;
-    to[1] = y;
-    to[2] = z;
-}
-
-// From the front: x to the right, y up, z to the eye, one pixel a unit, (0, 0, 0) in the middle of 200 x 200.
-static vn_camera_def from_the_front(void) {
-    vn_camera_def camera = vn_camera_def_default();
-    set_point(camera.from, 0, 0, 1000);
-    camera.fov = 0;
-    return camera;
-}
-
-static vn_canvas *canvas_with(const vn_camera_def *camera, const char *background) {
-    vn_canvas_def def = vn_canvas_def_default();
-    vn_canvas *canvas = NULL;
-    def.width = def.height = 200;
-    def.margin = 0;
-    def.view = (vn_box){{-100, -100, -100}, {100, 100, 100}};
-    def.background = background;
-    def.camera = camera;
-    assert_ok(vn_canvas_create(&canvas, &def));
-    return canvas;
-}
-
-static vn_network *empty_network(int dim) {
-    vn_network_def def = vn_network_def_default();
-    vn_network *network = NULL;
-    def.dim = dim;
-    assert_ok(vn_network_create(&network, &def));
-    return network;
-}
-
-static int32_t root_at(vn_network *network, double x, double y, double z) {
-    int32_t node = -1;
-    const double p[3] = {x, y, z};
-    assert_ok(vn_network_root(network, p, &node));
-    return node;
-}
-
-static int32_t child_at(vn_network *network, int32_t parent, double x, double y, double z) {
-    int32_t node = -1;
-    const double p[3] = {x, y, z};
-    assert_ok(vn_network_add(network, parent, p, &node));
-    return node;
-}
-
-static vn_network *edge(double x1, double y1, double z1, double x2, double y2, double z2) {
-    vn_network *network = empty_network(3);
-    child_at(network, root_at(network, x1, y1, z1), x2, y2, z2);
-    return network;
-}
-
-static vn_network *random_tree(int32_t nodes, int dim) {
-    vn_network *network = empty_network(dim);
-    vn_rng rng = vn_rng_make(7);
-    vn_murray_def law = vn_murray_def_default();
-    law.tip_radius = 0.5;
-    assert_ok(vn_network_murray(network, &law));
-    root_at(network, 0, 0, 0);
-    for (int32_t i = 1; i < nodes; i++) {
-        int32_t parent = (int32_t)vn_rng_integer(&rng, i > 9 ? i - 9 : 0, i - 1);
-        double p[3] = {0};
-        for (int k = 0; k < dim; k++) {
-            p[k] = vn_rng_uniform(&rng, -90, 90);
-        }
-        child_at(network, parent, p[0], p[1], p[2]);
-    }
-    return network;
-}
-
-static void stroke(vn_canvas *canvas, const vn_network *network, const char *color, double width) {
-    vn_stroke_def def = vn_stroke_def_default();
-    def.color = color;
-    def.width = width;
-    assert_ok(vn_canvas_stroke(canvas, network, &def));
-}
-
-// Each node is near its parent, as in what grows.
-static vn_network *grown_tree(int32_t nodes) {
-    vn_network *network = empty_network(3);
-    vn_rng rng = vn_rng_make(9);
-    root_at(network, 0, 0, 0);
-    for (int32_t i = 1; i < nodes; i++) {
-        int32_t parent = (int32_t)vn_rng_integer(&rng, 0, i - 1);
-        double step[3], p[3] = {vn_network_x(network)[parent], vn_network_y(network)[parent],
-                                vn_network_z(network)[parent]};
-        for (int k = 0; k < 3; k++) {
-            step[k] = vn_rng_uniform(&rng, -8, 8);
-            p[k] += fabs(p[k] + step[k]) < 95 ? step[k] : -step[k];
-        }
-        child_at(network, parent, p[0], p[1], p[2]);
-    }
-    return network;
-}
-
-// Draw one edge and forget it.
-static void stroke_edge(vn_canvas *canvas, const char *color, double width, const double a[3],
-                        const double b[3]) {
-    vn_network *network = edge(a[0], a[1], a[2], b[0], b[1], b[2]);
-    stroke(canvas, network, color, width);
-    vn_network_destroy(network);
-}
-
-typedef struct picture {
-    png_image head;
-    unsigned char *rgba;
-} picture;
-
-static picture take_picture(const vn_canvas *canvas) {
-    picture made = {.head = {.version = PNG_IMAGE_VERSION}};
-    assert_ok(vn_canvas_save(canvas, "test_camera.png", NULL));
-    assert_true(png_image_begin_read_from_file(&made.head, "test_camera.png"));
-    made.head.format = PNG_FORMAT_RGBA;
-    made.rgba = malloc(PNG_IMAGE_SIZE(made.head));
-    assert_non_null(made.rgba);
-    assert_true(png_image_finish_read(&made.head, NULL, made.rgba, 0, NULL));
-    remove("test_camera.png");
-    return made;
-}
-
-// The pixel at (x, y) of from_the_front()'s canvas.
-static const unsigned char *pixel(const picture *from, int x, int y) {
-    return from->rgba + 4 * ((size_t)(99 - y) * from->head.width + (size_t)(100 + x));
-}
-
-static bool is_red(const unsigned char *rgba) {
-    return rgba[3] == 255 && rgba[0] > 2 * rgba[2] && rgba[0] > 80;
-}
-
-static bool is_blue(const unsigned char *rgba) {
-    return rgba[3] == 255 && rgba[2] > 2 * rgba[0] && rgba[2] > 80;
-}
-
-static double covered(const vn_canvas *canvas) {
-    picture from = take_picture(canvas);
-    double sum = 0;
-    for (size_t i = 0; i < (size_t)from.head.width * from.head.height; i++) {
-        sum += from.rgba[4 * i + 3] / 255.0;
-    }
-    free(from.rgba);
-    return sum;
-}
 
 // ---- Where things are ----
 
@@ -425,32 +257,16 @@ static void a_view_without_extent_is_refused(void **state) {
     assert_int_equal(vn_canvas_create(&canvas, &def), VN_INVALID);
 }
 
-static char *bytes_of(const vn_canvas *canvas, const char *path, size_t *size) {
-    assert_ok(vn_canvas_save(canvas, path, "{\"seed\": 1}"));
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *size = (size_t)ftell(file);
-    rewind(file);
-    char *bytes = malloc(*size + 1);
-    assert_non_null(bytes);
-    assert_int_equal(fread(bytes, 1, *size, file), *size);
-    bytes[*size] = '\0';
-    fclose(file);
-    remove(path);
-    return bytes;
-}
-
 static void without_a_camera_depth_is_not_looked_at(void **state) {
     (void)state;
-    vn_network *solid = random_tree(50, 3), *flat = empty_network(2);
+    vn_network *solid = tangled_tree(50, 3), *flat = network_of(2);
     vn_murray_def law = vn_murray_def_default();
     law.tip_radius = 0.5;
     assert_ok(vn_network_murray(flat, &law));
     const double *x = vn_network_x(solid), *y = vn_network_y(solid);
-    root_at(flat, x[0], y[0], 0);
+    put_root(flat, x[0], y[0], 0);
     for (int32_t i = 1; i < 50; i++) {
-        child_at(flat, vn_network_parent(solid)[i], x[i], y[i], 0);
+        put_child(flat, vn_network_parent(solid)[i], x[i], y[i], 0);
     }
     char *bytes[2];
     size_t sizes[2];
@@ -590,9 +406,9 @@ static void a_tube_covers_its_width_and_has_round_ends(void **state) {
 static void a_bent_tube_leaves_no_gap_and_no_blob(void **state) {
     (void)state;
     vn_camera_def camera = from_the_front();
-    vn_network *network = empty_network(3);
-    int32_t bend = child_at(network, root_at(network, -50, 0, 0), 0, 0, 0);
-    child_at(network, bend, 0, 50, 0);
+    vn_network *network = network_of(3);
+    int32_t bend = put_child(network, put_root(network, -50, 0, 0), 0, 0, 0);
+    put_child(network, bend, 0, 50, 0);
     vn_canvas *canvas = canvas_with(&camera, "none");
     stroke(canvas, network, "red", 12);
     // two arms without the square that they share, a quarter disc outside the bend, and two round ends
@@ -655,14 +471,14 @@ static void no_ball_shows_within_a_thick_vein(void **state) {
     (void)state;
     vn_camera_def camera = from_the_front();
     for (int away = -1; away <= 1; away += 2) {
-        vn_network *network = empty_network(3);
+        vn_network *network = network_of(3);
         double widths[15];
-        int32_t node = root_at(network, 0, 70, 0);
+        int32_t node = put_root(network, 0, 70, 0);
         for (int i = 0; i < 15; i++) {
             widths[i] = 60 - 2 * i;
         }
         for (int i = 1; i < 15; i++) {
-            node = child_at(network, node, 0.3 * (i % 2), 70 - 8 * i, away * (6 * i + 0.3 * (i % 2)));
+            node = put_child(network, node, 0.3 * (i % 2), 70 - 8 * i, away * (6 * i + 0.3 * (i % 2)));
         }
         vn_stroke_def def = vn_stroke_def_default();
         def.color = "#c04030";
@@ -719,11 +535,9 @@ static void a_solid_domain_is_a_shaded_film(void **state) {
     (void)state;
     vn_camera_def camera = from_the_front();
     vn_canvas *canvas = canvas_with(&camera, "none");
-    vn_disk_def ball = {{0, 0, 0}, 60};
     vn_fill_def fill = vn_fill_def_default();
-    vn_domain *domain;
     fill.opacity = 0.5;
-    assert_ok(vn_domain_sphere(&domain, &ball));
+    vn_domain *domain = ball_of(0, 0, 0, 60);
     assert_ok(vn_canvas_fill(canvas, domain, &fill));
     assert_near(covered(canvas), 0.5 * pi * 3600, 0.02 * pi * 3600);
     picture made = take_picture(canvas);
@@ -780,299 +594,12 @@ static void balls_boxes_and_meshes_have_triangles(void **state) {
 static void without_a_camera_a_solid_domain_is_refused(void **state) {
     (void)state;
     vn_canvas *canvas = canvas_with(NULL, "none");
-    vn_disk_def ball = {{0, 0, 0}, 60};
     vn_fill_def fill = vn_fill_def_default();
-    vn_domain *domain;
-    assert_ok(vn_domain_sphere(&domain, &ball));
+    vn_domain *domain = ball_of(0, 0, 0, 60);
     assert_int_equal(vn_canvas_fill(canvas, domain, &fill), VN_INVALID);
     assert_message("camera");
     assert_int_equal(canvas->items.count, 0);
     vn_domain_release(domain);
-    vn_canvas_destroy(canvas);
-}
-
-// ---- Colours that tell something ----
-
-static void edges_have_colours_of_their_own(void **state) {
-    (void)state;
-    vn_camera_def camera = from_the_front();
-    for (int i = 0; i < 2; i++) {
-        vn_network *network = empty_network(3);
-        const uint32_t colors[] = {0, 0xFF0000, 0x0000FF};
-        int32_t middle = child_at(network, root_at(network, -80, 0, 0), 0, 0, 0);
-        child_at(network, middle, 80, 0, 0);
-        vn_stroke_def def = vn_stroke_def_default();
-        def.width = 10;
-        def.colors = colors;
-        vn_canvas *canvas = canvas_with(i == 0 ? &camera : NULL, "none");
-        assert_ok(vn_canvas_stroke(canvas, network, &def));
-        picture made = take_picture(canvas);
-        assert_true(is_red(pixel(&made, -40, 0)));
-        assert_true(is_blue(pixel(&made, 40, 0)));
-        free(made.rgba);
-        size_t size;
-        char *svg = bytes_of(canvas, "test_camera.svg", &size);
-        assert_true(i == 0 || (strstr(svg, "\"#ff0000\"") != NULL && strstr(svg, "\"#0000ff\"") != NULL));
-        free(svg);
-        vn_canvas_destroy(canvas);
-        vn_network_destroy(network);
-    }
-}
-
-static void a_ramp_goes_evenly_from_the_least_to_the_greatest(void **state) {
-    (void)state;
-    const double values[] = {-1, 0, 1, 3, NAN, INFINITY};
-    const vn_color other = {1, 2, 3, 255};
-    vn_rgb_array got = {0};
-    assert_ok(vn_ramp_colors(&got, values, 6, "#000000  #640000, #64c800", other));
-    const uint32_t expected[] = {0x000000, 0x320000, 0x640000, 0x64c800, 0x010203, 0x010203};
-    assert_int_equal(got.count, 6);
-    assert_memory_equal(got.data, expected, sizeof expected);
-    assert_ok(vn_ramp_colors(&got, values, 1, "red blue", other));
-    assert_int_equal(got.data[0], 0xFF0000);
-    assert_int_equal(vn_ramp_colors(&got, values, 6, "red", other), VN_INVALID);
-    assert_message("two or more");
-    assert_int_equal(vn_ramp_colors(&got, values, 6, "red none", other), VN_INVALID);
-    assert_int_equal(vn_ramp_colors(&got, values, 6, "red rosso", other), VN_INVALID);
-    vn_array_free(&got);
-}
-
-static void columns_are_values_of_the_edges(void **state) {
-    (void)state;
-    vn_network *network = random_tree(20, 3);
-    vn_values got = {0};
-    const char *known[] = {"radius", "tree", "birth"}, *unknown[] = {"order", "flow", "pressure", "colour"};
-    for (int i = 0; i < 3; i++) {
-        assert_ok(vn_column_values(&got, network, known[i]));
-        assert_int_equal(got.count, 20);
-        assert_true(isnan(got.data[0]) && isfinite(got.data[1]));
-    }
-    for (int i = 0; i < 4; i++) {
-        assert_int_equal(vn_column_values(&got, network, unknown[i]), VN_INVALID);
-    }
-    assert_ok(vn_network_set_orders(network, VN_STRAHLER));
-    assert_ok(vn_column_values(&got, network, "order"));
-    assert_near(got.data[5], vn_network_orders(network)[5], 0);
-    vn_array_free(&got);
-    vn_network_destroy(network);
-}
-
-// ---- Files ----
-
-// Some of everything.
-static vn_status draw_all(vn_canvas *canvas, const vn_network *network) {
-    vn_stroke_def stroke_def = vn_stroke_def_default();
-    vn_dots_def dots = vn_dots_def_default();
-    vn_fill_def fill = vn_fill_def_default();
-    vn_text_def text = vn_text_def_default();
-    vn_line_def line = vn_line_def_default();
-    const double x[] = {20, 40}, y[] = {30, 50}, z[] = {3, -50};
-    vn_disk_def disk = {{0, 0, 0}, 70};
-    vn_domain *ball = NULL;
-    stroke_def.column = "radius";
-    fill.opacity = 0.2;
-    text.angle = 30;
-    line.fill = "teal";
-    VN_TRY(vn_domain_sphere(&ball, &disk));
-    vn_status status = vn_canvas_fill(canvas, ball, &fill);
-    vn_domain_release(ball);
-    VN_TRY(status);
-    VN_TRY(vn_canvas_stroke(canvas, network, &stroke_def));
-    VN_TRY(vn_canvas_dots(canvas, x, y, z, 2, &dots));
-    VN_TRY(vn_canvas_line(canvas, x, y, z, 2, &line));
-    return vn_canvas_text(canvas, "fig. 1", &text);
-}
-
-static vn_status draw_and_save(const vn_network *network, const char *path) {
-    vn_canvas_def def = vn_canvas_def_default();
-    vn_camera_def camera = vn_camera_def_default();
-    vn_canvas *canvas;
-    camera.fog = 0.4;
-    def.width = def.height = 60;
-    def.view = (vn_box){{-100, -100, -100}, {100, 100, 100}};
-    def.camera = &camera;
-    VN_TRY(vn_canvas_create(&canvas, &def));
-    vn_status status = draw_all(canvas, network);
-    if (status == VN_OK) {
-        status = vn_canvas_save(canvas, path, "{\"seed\": 1}");
-    }
-    vn_canvas_destroy(canvas);
-    return status;
-}
-
-static const char *const paths[] = {"test_camera.png", "test_camera.svg", "test_camera.pdf",
-                                    "test_camera.eps"};
-
-static char *read_file(const char *path, size_t *size) {
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *size = (size_t)ftell(file);
-    rewind(file);
-    char *bytes = malloc(*size + 1);
-    assert_non_null(bytes);
-    assert_int_equal(fread(bytes, 1, *size, file), *size);
-    bytes[*size] = '\0';
-    fclose(file);
-    remove(path);
-    return bytes;
-}
-
-static void the_same_picture_is_the_same_bytes_at_any_thread_count(void **state) {
-    (void)state;
-    vn_network *network = random_tree(300, 3);
-    for (int i = 0; i < 4; i++) {
-        size_t size, again;
-        vn_set_threads(1);
-        assert_ok(draw_and_save(network, paths[i]));
-        char *first = read_file(paths[i], &size);
-        vn_set_threads(2);
-        assert_ok(draw_and_save(network, paths[i]));
-        char *second = read_file(paths[i], &again);
-        assert_int_equal(size, again);
-        assert_memory_equal(first, second, size);
-        free(first);
-        free(second);
-    }
-    vn_set_threads(0);
-    vn_network_destroy(network);
-}
-
-static void an_svg_of_a_scene_is_well_formed(void **state) {
-    (void)state;
-    vn_network *network = random_tree(300, 3);
-    assert_ok(draw_and_save(network, "test_camera.svg"));
-    xmlDoc *doc = xmlReadFile("test_camera.svg", NULL, XML_PARSE_NONET);
-    assert_non_null(doc);
-    int scenes = 0, paths_in_scenes = 0;
-    for (xmlNode *node = xmlDocGetRootElement(doc)->children; node != NULL; node = node->next) {
-        bool scene = node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, "g") == 0;
-        scenes += scene;
-        paths_in_scenes += scene ? (int)xmlChildElementCount(node) : 0;
-    }
-    assert_int_equal(scenes, 2); // the film of the ball; veins and dots together
-    assert_true(paths_in_scenes > 600);
-    xmlFreeDoc(doc);
-    remove("test_camera.svg");
-    vn_network_destroy(network);
-}
-
-static void an_svg_of_8000_segments_is_below_10_megabytes(void **state) {
-    (void)state;
-    vn_network *network = grown_tree(8001);
-    vn_camera_def camera = vn_camera_def_default();
-    vn_canvas_def def = vn_canvas_def_default();
-    vn_canvas *canvas;
-    size_t size;
-    def.width = def.height = 800;
-    def.view = (vn_box){{-100, -100, -100}, {100, 100, 100}};
-    def.camera = &camera;
-    assert_ok(vn_canvas_create(&canvas, &def));
-    stroke(canvas, network, "red", 1);
-    free(bytes_of(canvas, "test_camera.svg", &size));
-    print_message("8,000 segments: %zu bytes of SVG\n", size);
-    assert_in_range(size, 1000000, 10000000);
-    vn_canvas_destroy(canvas);
-    vn_network_destroy(network);
-}
-
-static void assert_eps_page(const char *unit, double width, const char *box) {
-    vn_canvas_def def = vn_canvas_def_default();
-    vn_dots_def dots = vn_dots_def_default();
-    const double x[] = {5}, y[] = {5};
-    vn_canvas *canvas;
-    size_t size;
-    def.width = width;
-    def.view = (vn_box){{0, 0, 0}, {100, 50, 0}};
-    def.margin = 0;
-    def.unit = unit;
-    assert_ok(vn_canvas_create(&canvas, &def));
-    assert_ok(vn_canvas_dots(canvas, x, y, NULL, 1, &dots));
-    assert_ok(vn_canvas_save(canvas, "test_camera.eps", "{\"name\": \"blä\xF0\x9F\x8C\xBF\"}"));
-    char *eps = read_file("test_camera.eps", &size);
-    assert_int_equal(strncmp(eps, "%!PS-Adobe-3.0 EPSF-3.0\n", 24), 0);
-    assert_non_null(strstr(eps, box));
-    assert_null(strstr(eps, "CreationDate"));
-    assert_non_null(strstr(eps, "\n%Venule: {\"name\": \"bl\\u00e4\\ud83c\\udf3f\"}\n"));
-    assert_non_null(strstr(eps, "%%EOF"));
-    for (size_t i = 0; i < size; i++) {
-        assert_true((unsigned char)eps[i] < 0x80);
-    }
-    free(eps);
-    vn_canvas_destroy(canvas);
-}
-
-static void an_eps_page_has_the_size_of_the_canvas_and_no_date(void **state) {
-    (void)state;
-    assert_eps_page("", 400, "\n%%BoundingBox: 0 0 300 150\n%%HiResBoundingBox: 0 0 300 150\n");
-    assert_eps_page("mm", 400, "\n%%BoundingBox: 0 0 284 142\n%%HiResBoundingBox: 0 0 283.4646 141.7323\n");
-}
-
-static void a_line_is_one_stroke_and_with_an_inside_a_fill(void **state) {
-    (void)state;
-    const double x[] = {10, 60, 60, 10}, y[] = {10, 10, 40, 40};
-    vn_canvas_def def = vn_canvas_def_default();
-    vn_line_def line = vn_line_def_default();
-    vn_canvas *canvas;
-    def.width = def.height = 100;
-    assert_ok(vn_canvas_create(&canvas, &def));
-    line.width = 2;
-    assert_ok(vn_canvas_line(canvas, x, y, NULL, 2, &line));
-    assert_near(covered(canvas), 50 * 2 + pi, 0.5);
-    line.fill = "red";
-    line.color = "none";
-    assert_ok(vn_canvas_line(canvas, x, y, NULL, 4, &line));
-    assert_near(covered(canvas), 50 * 30 + 50 + 0.5 * pi + 2, 1);
-    assert_int_equal(vn_canvas_line(canvas, x, y, NULL, 1, &line), VN_INVALID);
-    assert_message("two or more");
-    assert_int_equal(canvas->items.count, 2);
-    vn_canvas_destroy(canvas);
-}
-
-static void text_is_as_wide_as_it_is_told(void **state) {
-    (void)state;
-    double once, twice;
-    assert_ok(vn_text_width(&once, "venule", 20));
-    assert_ok(vn_text_width(&twice, "venulevenule", 40));
-    assert_true(once > 40 && once < 100);
-    assert_near(twice, 4 * once, 0.5);
-    assert_ok(vn_text_width(&once, "", 20));
-    assert_near(once, 0, 0);
-}
-
-static void any_refused_allocation_is_a_status_and_leaks_nothing(void **state) {
-    (void)state;
-    vn_network *network = random_tree(40, 3);
-    const int32_t *order;
-    assert_ok(vn_network_order(network, &order));
-    for (int i = 0; i < 4; i++) {
-        size_t before = vn_byte_count();
-        vn_status status = VN_NO_MEMORY;
-        for (int64_t nth = 0; status != VN_OK; nth++) {
-            assert_true(nth < 1000);
-            vn_fail_allocations_from(nth);
-            status = draw_and_save(network, paths[i]);
-            vn_fail_allocations_from(-1);
-            assert_true(status == VN_OK || status == VN_NO_MEMORY);
-            assert_int_equal(vn_byte_count(), before);
-        }
-        remove(paths[i]);
-    }
-    vn_network_destroy(network);
-}
-
-static void an_empty_network_is_an_empty_scene(void **state) {
-    (void)state;
-    vn_camera_def camera = from_the_front();
-    vn_canvas *canvas = canvas_with(&camera, "none");
-    vn_network *network = empty_network(3);
-    stroke(canvas, network, "red", 1);
-    root_at(network, 0, 0, 0);
-    stroke(canvas, network, "red", 1);
-    child_at(network, 0, 0, 0, 0); // no length
-    stroke(canvas, network, "red", 4);
-    assert_near(covered(canvas), pi * 4, 3);
-    vn_network_destroy(network);
     vn_canvas_destroy(canvas);
 }
 
@@ -1101,17 +628,6 @@ int main(void) {
         cmocka_unit_test(a_solid_domain_is_a_shaded_film),
         cmocka_unit_test(balls_boxes_and_meshes_have_triangles),
         cmocka_unit_test(without_a_camera_a_solid_domain_is_refused),
-        cmocka_unit_test(edges_have_colours_of_their_own),
-        cmocka_unit_test(a_ramp_goes_evenly_from_the_least_to_the_greatest),
-        cmocka_unit_test(columns_are_values_of_the_edges),
-        cmocka_unit_test(the_same_picture_is_the_same_bytes_at_any_thread_count),
-        cmocka_unit_test(an_svg_of_a_scene_is_well_formed),
-        cmocka_unit_test(an_svg_of_8000_segments_is_below_10_megabytes),
-        cmocka_unit_test(an_eps_page_has_the_size_of_the_canvas_and_no_date),
-        cmocka_unit_test(a_line_is_one_stroke_and_with_an_inside_a_fill),
-        cmocka_unit_test(text_is_as_wide_as_it_is_told),
-        cmocka_unit_test(any_refused_allocation_is_a_status_and_leaks_nothing),
-        cmocka_unit_test(an_empty_network_is_an_empty_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
