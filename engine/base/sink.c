@@ -117,6 +117,10 @@ vn_status vn_sink_write(vn_sink *sink, const void *bytes, size_t count) {
     return fwrite(bytes, 1, count, sink->file) == count ? VN_OK : fail_write(sink);
 }
 
+vn_status vn_sink_text(vn_sink *sink, const char *text) {
+    return vn_sink_write(sink, text, strlen(text));
+}
+
 vn_status vn_sink_print(vn_sink *sink, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -133,6 +137,20 @@ vn_status vn_sink_number(vn_sink *sink, double value) {
 vn_status vn_sink_rounded(vn_sink *sink, double value, int decimals) {
     char text[VN_NUMBER_SIZE];
     return vn_sink_write(sink, text, (size_t)vn_format_rounded(text, value, decimals));
+}
+
+vn_status vn_sink_integer(vn_sink *sink, int64_t value) {
+    char digits[VN_NUMBER_SIZE];
+    char *at = digits + sizeof digits;
+    uint64_t rest = value < 0 ? 0u - (uint64_t)value : (uint64_t)value;
+    do {
+        *--at = (char)('0' + rest % 10);
+        rest /= 10;
+    } while (rest > 0);
+    if (value < 0) {
+        *--at = '-';
+    }
+    return vn_sink_write(sink, at, (size_t)(digits + sizeof digits - at));
 }
 
 // linkat() does not replace a file, rename() does: so a nameless file is named `part` for one moment.

@@ -2,18 +2,12 @@
 #ifndef VN_FILE_JSON_H
 #define VN_FILE_JSON_H
 
-#include "venule/output.h"
+#include "file/format.h"
 
 #define VN_JSON_NETWORK "venule.network"
 #define VN_JSON_NETWORKS "venule.networks"
 
 /// Raised when an older reader would misread what a newer writer means; not for keys that it may skip.
 enum { VN_JSON_VERSION = 1 };
-
-/// In one file.
-enum { VN_JSON_MAX_NETWORKS = 4096 };
-
-/// Make room for one more network, whose two slots are then NULL.
-vn_status vn_network_set_extend(vn_network_set *set);
 
 #endif

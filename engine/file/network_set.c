@@ -1,6 +1,8 @@
 // The networks that one file holds.
 #include "base/memory.h"
-#include "file/json.h"
+#include "file/format.h"
+
+#include <yajl/yajl_parse.h>
 
 vn_status vn_network_set_extend(vn_network_set *set) {
     size_t old_size = (size_t)set->count * sizeof(void *);
@@ -21,6 +23,49 @@ vn_status vn_network_set_extend(vn_network_set *set) {
     return VN_OK;
 }
 
+vn_status vn_network_set_add(vn_network_set *set, vn_network *network) {
+    vn_status status = vn_network_set_extend(set);
+    if (status != VN_OK) {
+        vn_network_destroy(network);
+        return status;
+    }
+    set->networks[set->count - 1] = network;
+    set->names[set->count - 1] = vn_copy_text("");
+    return set->names[set->count - 1] != NULL ? VN_OK : vn_fail_memory("a name", 1);
+}
+
+static bool is_json(const char *text, size_t length) {
+    yajl_handle parser = yajl_alloc(NULL, NULL, NULL);
+    bool good = parser != NULL && yajl_parse(parser, (const unsigned char *)text, length) == yajl_status_ok &&
+                yajl_complete_parse(parser) == yajl_status_ok;
+    if (parser != NULL) {
+        yajl_free(parser);
+    }
+    return good;
+}
+
+bool vn_is_manifest(const char *text, size_t length) {
+    size_t begin = 0;
+    while (begin < length && strchr(" \t\r\n", text[begin]) != NULL) {
+        begin++;
+    }
+    return begin < length && text[begin] == '{' && memchr(text, '\0', length) == NULL &&
+           is_json(text, length);
+}
+
+vn_status vn_network_set_manifest(vn_network_set *set, const char *text, size_t length) {
+    if (set->manifest != NULL || !vn_is_manifest(text, length)) {
+        return VN_OK;
+    }
+    set->manifest = vn_resize(NULL, 0, length + 1);
+    if (set->manifest == NULL) {
+        return vn_fail_memory("a manifest", length + 1);
+    }
+    memcpy(set->manifest, text, length);
+    set->manifest[length] = '\0';
+    return VN_OK;
+}
+
 void vn_networks_free(vn_network_set *set) {
     for (int32_t i = 0; i < set->count; i++) {
         vn_network_destroy(set->networks[i]);
@@ -29,5 +74,6 @@ void vn_networks_free(vn_network_set *set) {
     size_t size = (size_t)set->count * sizeof(void *);
     vn_resize(set->networks, size, 0);
     vn_resize(set->names, size, 0);
+    vn_free_text(set->manifest);
     *set = (vn_network_set){0};
 }

@@ -123,11 +123,20 @@ VN_API vn_status vn_text_width(double *out, const char *text, double size);
 /// VN_INVALID for another extension, VN_IO when it cannot be written; then no file is left behind.
 VN_API vn_status vn_canvas_save(const vn_canvas *canvas, const char *path, const char *manifest);
 
-/// Write a network as JSON (".json"; docs/formats.md). Several at once when @p count is not 1 or names
-/// are given.
+/// Write a network by the extension of @p path (docs/formats.md): .json, .xml and .gxl (as VascuSynth and
+/// OpenCCO do), .vtp (ParaView, VMTK), .swc, .csv, .txt (a segment a line). Several at once, which only JSON
+/// holds, when
+/// @p count is not 1 or names are given. @p manifest (a JSON object, may be NULL) goes inside where the
+/// format has a place for it. VN_INVALID for what the format cannot hold, with one that can; VN_IO when the
+/// file cannot be written; then none is left behind.
 VN_API vn_status vn_network_save(const vn_network *network, const char *path, const char *manifest);
 VN_API vn_status vn_networks_save(const vn_network *const *networks, const char *const *names, int32_t count,
                                   const char *path, const char *manifest);
+/// Whether a file of that name could hold them; vn_message() says why not.
+VN_API vn_status vn_networks_check(const vn_network *const *networks, const char *const *names, int32_t count,
+                                   const char *path);
+/// The extensions of networks, "json" first; NULL beyond the last.
+VN_API const char *vn_network_format(int32_t index);
 
 /// Networks read from one file; names[i] is "" when it held a single one. Destroy each, then
 /// vn_networks_free().
@@ -135,8 +144,10 @@ typedef struct vn_network_set {
     vn_network **networks;
     char **names;
     int32_t count;
+    char *manifest; ///< the JSON object that the file says how it was made by; NULL without
 } vn_network_set;
-/// VN_IO for a missing file or one that is no network; the message says what and where.
+/// By the extension of @p path, as vn_network_save(). VN_INVALID for another extension, VN_IO for a missing
+/// file or one that is no network; the message says what and where.
 VN_API vn_status vn_networks_load(vn_network_set *out, const char *path);
 /// Free the set and the networks that are still in it (not NULL).
 VN_API void vn_networks_free(vn_network_set *set);

@@ -179,17 +179,8 @@ static int network_scale(lua_State *L) {
     return 0;
 }
 
-static const char *check_json_path(lua_State *L, int index) {
-    const char *path = luaL_checkstring(L, index);
-    size_t length = strlen(path);
-    if (length < 5 || strcmp(path + length - 5, ".json") != 0) {
-        vnl_fail(L, "%s: networks are written as .json; give such a name", path);
-    }
-    return path;
-}
-
 static int network_save(lua_State *L) {
-    const char *path = check_json_path(L, 2);
+    const char *path = luaL_checkstring(L, 2);
     const char *manifest = vnl_push_manifest(L);
     vnl_try(L, vn_network_save(check_network(L), path, manifest));
     return 0;
@@ -289,7 +280,9 @@ static const vnl_function methods[] = {
      "See "
      "venule.voxels.",
      NULL},
-    {"save", network_save, "(path: string)", NULL, "Write the network as JSON.", NULL},
+    {"save", network_save, "(path: string)", NULL,
+     "Write the network by the extension: .json, .xml, .gxl, .vtp, .swc, .csv, .txt (docs/formats.md).",
+     NULL},
     {0},
 };
 
@@ -471,27 +464,73 @@ int32_t vnl_named_networks(lua_State *L, int index, const char *what, const vn_n
     return count;
 }
 
-static int save_networks(lua_State *L) {
-    const char *path = check_json_path(L, 1);
+/// Networks as they are given to a file; without names when it is one alone.
+typedef struct given_networks {
     const vn_network *networks[VNL_MOST_NETWORKS];
     const char *names[VNL_MOST_NETWORKS];
-    lua_settop(L, 2);
-    const char *manifest = vnl_push_manifest(L);
-    if (lua_isuserdata(L, 2)) {
-        vnl_try(L, vn_network_save(vnl_check(L, 2, &vnl_network_class), path, manifest));
-        return 0;
+    int32_t count;
+    bool single;
+} given_networks;
+
+// The network, or the table of them by name, at index 2.
+static void read_given(lua_State *L, const char *what, given_networks *given) {
+    given->count = 1;
+    given->single = lua_isuserdata(L, 2);
+    if (given->single) {
+        given->networks[0] = vnl_check(L, 2, &vnl_network_class);
+        return;
     }
     luaL_checktype(L, 2, LUA_TTABLE);
-    int32_t count = vnl_named_networks(L, 2, "save", networks, names);
-    vnl_try(L, vn_networks_save(networks, names, count, path, manifest));
+    given->count = vnl_named_networks(L, 2, what, given->networks, given->names);
+}
+
+static int save_networks(lua_State *L) {
+    given_networks given;
+    const char *path = luaL_checkstring(L, 1);
+    lua_settop(L, 2);
+    const char *manifest = vnl_push_manifest(L);
+    read_given(L, "save", &given);
+    vnl_try(L,
+            vn_networks_save(given.networks, given.single ? NULL : given.names, given.count, path, manifest));
     return 0;
+}
+
+static int can_save_networks(lua_State *L) {
+    given_networks given;
+    const char *path = luaL_checkstring(L, 1);
+    lua_settop(L, 2);
+    read_given(L, "can_save", &given);
+    bool can =
+        vn_networks_check(given.networks, given.single ? NULL : given.names, given.count, path) == VN_OK;
+    lua_pushboolean(L, can);
+    if (can) {
+        return 1;
+    }
+    lua_pushstring(L, vn_message());
+    return 2;
+}
+
+static int list_formats(lua_State *L) {
+    lua_newtable(L);
+    for (int32_t i = 0; vn_network_format(i) != NULL; i++) {
+        lua_pushstring(L, vn_network_format(i));
+        lua_rawseti(L, -2, i + 1);
+    }
+    return 1;
 }
 
 const vnl_function vnl_network_functions[] = {
     {"network", make_network, NULL, "venule.Network", "An empty network.", &vn_network_schema},
     {"load", load_networks, "(path: string): venule.Network|table<string, venule.Network>", NULL,
-     "Read a network from a JSON file; or, where it holds several, a table of them by name.", NULL},
+     "Read a network from a file, by its extension; or, where it holds several (.json), a table of them by "
+     "name.",
+     NULL},
     {"save", save_networks, "(path: string, networks: venule.Network|table<string, venule.Network>)", NULL,
-     "Write one network, or several by name, as JSON.", NULL},
+     "Write one network, or several by name (.json), by the extension.", NULL},
+    {"can_save", can_save_networks,
+     "(path: string, networks: venule.Network|table<string, venule.Network>): boolean, string?", NULL,
+     "Whether a file of that name can hold them; if not, why.", NULL},
+    {"formats", list_formats, "(): string[]", NULL, "The extensions that networks are written and read by.",
+     NULL},
     {0},
 };

@@ -42,6 +42,7 @@ bool read_size(const char *text, size_t *bytes);
 /// Each returns the exit status.
 int run_command(int argc, char **argv);
 int info_command(int argc, char **argv);
+int convert_command(int argc, char **argv);
 int test_command(int argc, char **argv);
 
 /// limits.c: a state whose memory counts against the budget, and that Ctrl-C and the time budget stop.

@@ -201,7 +201,7 @@ int info_command(int argc, char **argv) {
         }
     }
     if (path == NULL) {
-        fprintf(stderr, "venule: info: one saved network expected (venule info FILE.json [--json])\n");
+        fprintf(stderr, "venule: info: one saved network expected (venule info FILE [--json])\n");
         return VN_EXIT_USAGE;
     }
     vn_network_set set = {0};

@@ -12,7 +12,8 @@ static const char help_text[] =
     "Venule grows veins: leaf venation, blood vessels, anything that branches to fill a space.\n"
     "\n"
     "  venule run SCRIPT [options]   run a scenario (`venule SCRIPT` is the same)\n"
-    "      -o FILE                   write the result there: .svg, .png, .pdf, .eps, .json; may be repeated\n"
+    "      -o FILE                   write the result there: .svg, .png, .pdf, .eps, or a network's,\n"
+    "                                as below; may be repeated\n"
     "      --set NAME=VALUE          set one of the script's parameters; may be repeated\n"
     "      --params FILE             set parameters from a JSON file {\"name\": value, ...}\n"
     "      --seed N                  the same as --set seed=N\n"
@@ -24,6 +25,7 @@ static const char help_text[] =
     "      --quiet                   print nothing but errors\n"
     "      --help                    list the script's parameters, with ranges\n"
     "  venule info FILE [--json]     what a saved network is: counts, bounds, measures\n"
+    "  venule convert IN OUT         between all formats of networks: .json .xml .gxl .vtp .swc .csv .txt\n"
     "  venule test FILE|FOLDER...    run Lua tests (luaunit): test_*.lua\n"
     "  venule --version\n"
     "\n"
@@ -47,9 +49,9 @@ static int version_command(int argc, char **argv) {
 static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
-} commands[] = {{"run", run_command},         {"info", info_command},        {"test", test_command},
-                {"help", help_command},       {"--help", help_command},      {"-h", help_command},
-                {"version", version_command}, {"--version", version_command}};
+} commands[] = {{"run", run_command},   {"info", info_command},       {"convert", convert_command},
+                {"test", test_command}, {"help", help_command},       {"--help", help_command},
+                {"-h", help_command},   {"version", version_command}, {"--version", version_command}};
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

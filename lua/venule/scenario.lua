@@ -230,6 +230,7 @@ local function draw(r)
 end
 
 local pictures = {png = true, svg = true, pdf = true, eps = true}
+local network_formats = venule.formats()
 
 local function default_outputs(r)
   local stem = (file_name(host.script) or "venule"):gsub("%.lua$", "")
@@ -240,10 +241,14 @@ local function extension_of(path)
   return (path:match("%.(%w+)$") or ""):lower()
 end
 
+local is_network_format = {}
+for _, format in ipairs(network_formats) do is_network_format[format] = true end
+
 -- Before the run begins: nobody waits an hour to hear that a file cannot be of that kind.
 for _, path in ipairs(host.outputs) do
-  if not pictures[extension_of(path)] and extension_of(path) ~= "json" then
-    fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf, .eps and .json"):format(path))
+  if not pictures[extension_of(path)] and not is_network_format[extension_of(path)] then
+    fail_usage(("-o %s: unknown extension; known are .png, .svg, .pdf, .eps, and for networks .%s"):format(path,
+      table.concat(network_formats, ", .")))
   end
 end
 
@@ -259,8 +264,10 @@ end
 -- Before any is written: a run that must fail leaves no file behind.
 local function check_outputs(r, outputs)
   for _, path in ipairs(outputs) do
-    if extension_of(path) == "json" and not r.network and not r.networks then
-      fail_usage(("-o %s: the script gives no network to save"):format(path))
+    if is_network_format[extension_of(path)] then
+      if not r.network and not r.networks then fail_usage(("-o %s: the script gives no network to save"):format(path)) end
+      local can, why = venule.can_save(path, r.network or r.networks)
+      if not can then fail_usage("-o " .. why) end
     end
   end
 end

@@ -253,7 +253,7 @@ function TestFiles:testAFolderThatIsNotThere()
   local net = grown(2, 4)
   fails(function() net:save(path .. ".json") end, path .. ".json: cannot be written: No such file or directory")
   fails(function() venule.save(path .. ".json", {a = net}) end, path .. ".json: cannot be written: No such file or directory")
-  fails(function() net:save(base) end, base .. ": networks are written as .json; give such a name")
+  fails(function() net:save(base) end, base .. ": networks are written as .json, .xml, .gxl, .vtp, .swc, .csv or .txt; give such a name")
   assert_folder_holds()
 end
 
