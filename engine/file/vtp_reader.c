@@ -54,10 +54,10 @@ typedef struct vtp_reader {
     int depth;
     int pieces;
     double points, verts; // announced
-    int open_depth;       // VTK puts keys and their values inside arrays
-    vtp_slot open;        // the array whose text comes now
-    bool base64;          // which it is
-    bool appended;        // the text is what all of these share
+    int array_depth; // of the array around here, 0 outside; VTK puts keys and values of its own into arrays
+    vtp_slot open;   // the array whose text comes now
+    bool base64;     // which it is
+    bool appended;   // the text is what all of these share
     vn_text tail;
     VN_ARRAY(int32_t) node_of; // of each point; -1: no line has it
     vn_places places;
@@ -120,6 +120,7 @@ static bool has_components(const vn_xml_tag *tag, int wanted) {
 }
 
 static vn_status begin_array(vtp_reader *reader, const vn_xml_tag *tag) {
+    reader->array_depth = reader->depth;
     vn_slice name = {"", 0}, value = {"", 0};
     double offset;
     vn_xml_attribute(tag, "Name", &name);
@@ -142,7 +143,6 @@ static vn_status begin_array(vtp_reader *reader, const vn_xml_tag *tag) {
         return VN_OK;
     }
     reader->open = slot;
-    reader->open_depth = reader->depth;
     reader->base64 = formatted && vn_slice_is(value, "binary");
     return VN_OK;
 }
@@ -162,7 +162,7 @@ static vn_status on_begin(void *context, const vn_xml_tag *tag) {
     if (reader->depth++ == 0) {
         return begin_file(reader, tag);
     }
-    if (reader->open != SLOTS) {
+    if (reader->array_depth > 0) {
         return VN_OK;
     }
     if (strcmp(tag->name, "Piece") == 0) {
@@ -183,7 +183,7 @@ static vn_status on_text(void *context, const char *bytes, size_t count) {
     if (reader->appended) {
         return vn_text_append(&reader->tail, bytes, count);
     }
-    if (reader->open == SLOTS || reader->depth != reader->open_depth) {
+    if (reader->open == SLOTS || reader->depth != reader->array_depth) {
         return VN_OK;
     }
     vn_vtp_array *array = &reader->arrays[reader->open];
@@ -193,11 +193,12 @@ static vn_status on_text(void *context, const char *bytes, size_t count) {
 static vn_status on_end(void *context, const char *name) {
     vtp_reader *reader = context;
     vtp_slot open = reader->open;
-    bool ends = open != SLOTS && reader->depth == reader->open_depth;
+    bool ends = reader->depth == reader->array_depth;
     (void)name;
     reader->depth--;
     reader->appended = false;
-    if (!ends) {
+    reader->array_depth = ends ? 0 : reader->array_depth;
+    if (!ends || open == SLOTS) {
         return VN_OK;
     }
     reader->open = SLOTS;
@@ -336,7 +337,8 @@ static vn_status make_nodes(vtp_reader *reader) {
         VN_TRY(check_index(reader->arrays[VERTS].values.data[i], points, &point));
         reader->node_of.data[point] = 0;
     }
-    bool merge = !share && count_of(reader, LINE_ENDS) > 1;
+    bool ours = reader->seen[DIM]; // whose nodes are points, wherever they are
+    bool merge = !share && !ours && count_of(reader, LINE_ENDS) > 1;
     reader->draft.overlaps = merge; // VMTK's lines run from the inlet to each outlet
     for (int32_t i = 0; i < points; i++) {
         VN_TRY(reader->node_of.data[i] >= 0 ? make_node(reader, i, merge) : VN_OK);

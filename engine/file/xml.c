@@ -14,6 +14,7 @@ typedef struct xml_stream {
     xmlParserCtxtPtr parser;
     vn_status status; // of the first call that failed
     bool broken;      // the first error of the XML itself
+    bool ending;      // all of the file was fed
     int line;
     char error[200];
 } xml_stream;
@@ -78,8 +79,9 @@ static void on_error(void *context, xmlErrorPtr error) {
     }
     stream->broken = true;
     stream->line = error->line;
-    snprintf(stream->error, sizeof stream->error, "%s",
-             error->message != NULL ? error->message : "malformed");
+    bool early = stream->ending && error->code == XML_ERR_DOCUMENT_END; // to libxml2, "extra content"
+    const char *message = early ? "it ends too early" : error->message;
+    snprintf(stream->error, sizeof stream->error, "%s", message != NULL ? message : "malformed");
     stream->error[strcspn(stream->error, "\r\n")] = '\0';
     xmlStopParser(stream->parser);
 }
@@ -106,6 +108,7 @@ static vn_status feed(xml_stream *stream, const char *path, FILE *file) {
     if (total == 0) {
         return vn_fail(VN_INVALID, "the file is empty");
     }
+    stream->ending = true;
     xmlParseChunk(stream->parser, chunk, 0, 1);
     return state_of(stream);
 }

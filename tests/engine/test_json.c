@@ -25,7 +25,7 @@ static const char *in_folder(const char *name) {
 
 static int make_folder(void **state) {
     (void)state;
-    return mkdtemp(folder) != NULL ? 0 : -1;
+    return mkdtemp(folder) != NULL ? mkdir(in_folder("folder.json"), 0700) : -1;
 }
 
 static int drop_folder(void **state) {
@@ -34,7 +34,7 @@ static int drop_folder(void **state) {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         unlink(in_folder(names[i]));
     }
-    return rmdir(folder);
+    return rmdir(in_folder("folder.json")) | rmdir(folder);
 }
 
 static void write_file(const char *path, const char *text, size_t size) {
@@ -379,6 +379,11 @@ static const lie lies[] = {
     {"{\"format\": \"venule.networks\", \"version\": 1, \"networks\": {\"a\": {\"dim\": 2, " NODES
      "}}, " NODES "}",
      "holds nodes outside"},
+    {"{" HEAD ", \"dim\": 2, \"nodes\": {\"x\": [0], \"y\": [0], \"parent\": [-1], \"flow\": []}}",
+     "nodes.flow has 0 entries, but nodes.x has 1"},
+    {"{" HEAD ", \"dim\": 2, \"nodes\": {\"x\": [0], \"y\": [0], \"parent\": [-1], \"pressure\": [1]}}",
+     "nodes.pressure is given, but nodes.flow is missing"},
+    {"{" HEAD ", \"manifest\": {\"a\": [", "ends too early"},
     {"{" HEAD ", \"unit\": \"a\\u0000b\"}", "unit must have less than 256 bytes, none of them zero"},
 };
 
@@ -466,7 +471,7 @@ static void a_missing_file_is_named(void **state) {
     vn_network_set set;
     assert_int_equal(vn_networks_load(&set, in_folder("none.json")), VN_IO);
     assert_non_null(strstr(vn_message(), "none.json: cannot be read: No such file"));
-    assert_int_equal(vn_networks_load(&set, folder), VN_IO);
+    assert_int_equal(vn_networks_load(&set, in_folder("folder.json")), VN_IO);
     assert_non_null(strstr(vn_message(), "cannot be read"));
 }
 
@@ -489,13 +494,13 @@ static void a_file_that_cannot_be_written_leaves_nothing(void **state) {
     int entries = entries_in(folder);
     char longest[400];
     memset(longest, 'x', sizeof longest);
-    longest[sizeof longest - 1] = '\0';
+    strcpy(longest + sizeof longest - 6, ".json");
     char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, longest);
     assert_int_equal(vn_network_save(network, in_folder("gone/a.json"), NULL), VN_IO);
     assert_non_null(strstr(vn_message(), "gone/a.json"));
     assert_int_equal(vn_network_save(network, path, NULL), VN_IO);
-    assert_int_equal(vn_network_save(network, folder, NULL), VN_IO);
+    assert_int_equal(vn_network_save(network, in_folder("folder.json"), NULL), VN_IO);
     assert_int_equal(entries_in(folder), entries);
     assert_int_equal(vn_byte_count(), before);
     vn_network_destroy(network);

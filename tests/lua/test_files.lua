@@ -113,6 +113,46 @@ function TestFiles:testOrdersComeBack()
   end
 end
 
+-- What each format keeps; a law of radii only JSON does.
+function TestFiles:testEveryFormat()
+  local all = {"x", "y", "z", "parent", "radius", "tree", "birth"}
+  local most = {"x", "y", "z", "parent", "radius", "tree"}
+  local kept = {json = all, vtp = all, csv = all, xml = most, gxl = most, swc = most, txt = {}}
+  local formats = venule.formats()
+  lu.assertEquals(formats[1], "json")
+  for _, format in ipairs(formats) do
+    local net = grown(3, 4)
+    local path = temporary("net." .. format)
+    lu.assertTrue(venule.can_save(path, net))
+    net:save(path)
+    local back = venule.load(path)
+    lu.assertEquals(#back, #net)
+    lu.assertAlmostEquals(back:measure().length, net:measure().length, 1e-9)
+    for _, column in ipairs(kept[format]) do
+      for i = 1, #net do lu.assertEquals(back[column][i], net[column][i], format .. ", " .. column) end
+    end
+  end
+end
+
+function TestFiles:testWhatAFormatCannotHold()
+  local net, path = grown(2, 4), temporary "net.swc"
+  net:join(1, #net)
+  local why = path .. ": such a file holds trees, but 1 joins close loops; save it as .json, .xml, .gxl or .vtp"
+  lu.assertEquals({venule.can_save(path, net)}, {false, why})
+  fails(function() net:save(path) end, why)
+  path = temporary "both.xml"
+  why = path .. ": such a file holds one network, not 2; save each to its own, or all as .json"
+  fails(function() venule.save(path, {a = net, b = net}) end, why)
+  lu.assertEquals({venule.can_save(path, {a = net, b = net})}, {false, why})
+  lu.assertTrue(venule.can_save(path, {a = net}))
+  assert_folder_holds()
+end
+
+function TestFiles:testAFileOfOpenCCO()
+  local net = venule.load "../files/gxl/opencco-2d.xml"
+  lu.assertEquals({#net, net.dim, net.radius[4], net.parent[3]}, {4, 2, 1.29, 2})
+end
+
 function TestFiles:testAWholeNetworkGrowsOn()
   local net = grown(2, 4)
   net:save(temporary "net.json")

@@ -240,6 +240,47 @@ expect "run SCRIPT -h" 0 "" "$program" run leaf.lua -h
 empty "--help runs nothing" "$work/err"
 rm -rf "$to"; mkdir "$to"
 
+# ---------------------------------------------------------------- formats of networks
+
+expect "-o of each format" 0 "" "$program" run leaf.lua -o "$to/a.json" -o "$to/a.xml" -o "$to/a.vtp" -o "$to/a.swc" -o "$to/a.csv" -o "$to/a.txt"
+begins "-o .xml writes GXL" "$to/a.xml" "<!-- venule manifest {"
+holds "with the manifest" "$to/a.vtp" "kill_distance"
+expect "info of XML" 0 "" "$program" info "$to/a.xml"
+says "info counts its nodes" "bifurcations"
+for format in xml vtp; do
+  expect "convert to .$format" 0 "" "$program" convert "$to/a.json" "$to/b.$format"
+  expect "convert from .$format" 0 "" "$program" convert "$to/b.$format" "$to/c.json"
+  expect "convert to .$format again" 0 "" "$program" convert "$to/c.json" "$to/c.$format"
+  sed '/Name="Order"/,/DataArray>/d; s/"[:,] "/":"/g' "$to/b.$format" >"$to/b" # orders are not read
+  sed 's/"[:,] "/":"/g' "$to/c.$format" >"$to/c"
+  same "convert loses nothing by .$format" "$to/b" "$to/c"
+done
+rm -rf "$to"; mkdir "$to"
+cat >pair.json <<'EOF'
+{"format": "venule.networks", "version": 1, "networks": {
+"a": {"dim": 2, "nodes": {"x": [0, 1], "y": [0, 0], "parent": [-1, 0]}},
+"v": {"dim": 2, "nodes": {"x": [0, 1], "y": [5, 5], "parent": [-1, 0]}}}}
+EOF
+expect "convert of two networks" 1 "pair.vtp: such a file holds one network, not 2; save each to its own, or all as .json" \
+  "$program" convert pair.json "$to/pair.vtp"
+expect "convert of two networks to JSON" 0 "" "$program" convert pair.json "$to/pair.json"
+rm -rf "$to"; mkdir "$to"
+printf '<gxl><graph>\n<node id="a"/>\n</graph></gxl>\n' >broken.xml
+expect "convert of a broken file" 4 'broken.xml: line 2: node "a" has no position' "$program" convert broken.xml "$to/a.json"
+expect "convert of a missing file" 4 "none.vtp: cannot be read" "$program" convert none.vtp "$to/a.json"
+expect "convert to an unknown extension" 1 "a.stl: networks are written as .json, .xml," "$program" convert pair.json "$to/a.stl"
+expect "convert of one file" 2 "venule convert IN OUT" "$program" convert pair.json
+script looped <<'EOF'
+local venule = require "venule"
+local net = venule.network {}
+net:root(0, 0)
+net:add(1, 1, 0)
+net:add(2, 1, 1)
+net:join(1, 3)
+venule.result {network = net}
+EOF
+expect "-o of a format without loops" 2 "a.swc: such a file holds trees, but 1 joins close loops" "$program" run looped.lua -o "$to/a.vtp" -o "$to/a.swc"
+
 # ---------------------------------------------------------------- parameters that are wrong
 
 expect "--set of an unknown name" 2 '--set kil_distance: this script has no such parameter, did you mean "kill_distance"?' \
