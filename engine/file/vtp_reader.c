@@ -16,6 +16,7 @@ typedef enum vtp_slot {
     FLOW,
     PRESSURE,
     BIRTH,
+    NODE,
     JOIN,
     JOIN_RADIUS,
     DIM,
@@ -37,6 +38,7 @@ static const struct {
     [FLOW] = {"PointData", "Flow", NULL, 1},
     [PRESSURE] = {"PointData", "Pressure", NULL, 1},
     [BIRTH] = {"PointData", "Birth", NULL, 1},
+    [NODE] = {"PointData", "Node", NULL, 1},
     [JOIN] = {"CellData", "Join", NULL, 1},
     [JOIN_RADIUS] = {"CellData", "JoinRadius", NULL, 1},
     [DIM] = {"FieldData", "dim", NULL, 1},
@@ -258,7 +260,7 @@ static vn_status check_counts(const vtp_reader *reader) {
         return vn_fail(VN_INVALID, "says that it has %g points, but holds %d coordinates", reader->points,
                        count_of(reader, POINTS));
     }
-    for (vtp_slot slot = RADIUS; slot <= BIRTH; slot++) {
+    for (vtp_slot slot = RADIUS; slot <= NODE; slot++) {
         if (reader->seen[slot] && count_of(reader, slot) != points) {
             return vn_fail(VN_INVALID, "%s has %d entries, but there are %d points", slots[slot].name,
                            count_of(reader, slot), points);
@@ -308,11 +310,23 @@ static double value_at(const vtp_reader *reader, vtp_slot slot, int32_t i) {
     return reader->seen[slot] && i < count_of(reader, slot) ? reader->arrays[slot].values.data[i] : NAN;
 }
 
+// Ours say which node a point belongs to: each node's own point comes before any other of it.
+static vn_status named_node(const vtp_reader *reader, int32_t point, int32_t *node) {
+    double value = value_at(reader, NODE, point);
+    if (!(value >= 0 && value <= reader->draft.x.count) || value != floor(value)) {
+        return vn_fail(VN_INVALID, "Node[%d] = %g must be from 0 to %d", point, value, reader->draft.x.count);
+    }
+    *node = (int32_t)value;
+    return VN_OK;
+}
+
 // Nodes come in the order of the points; those that no line and no vertex has are left out.
 static vn_status make_node(vtp_reader *reader, int32_t point, bool merge) {
     const double *p = reader->arrays[POINTS].values.data + 3 * (size_t)point;
     int32_t node = reader->draft.x.count;
-    if (merge) {
+    if (reader->seen[NODE]) {
+        VN_TRY(named_node(reader, point, &node));
+    } else if (merge) {
         VN_TRY(vn_places_number(&reader->places, p, &node));
     }
     reader->node_of.data[point] = node;
@@ -337,11 +351,11 @@ static vn_status make_nodes(vtp_reader *reader) {
         VN_TRY(check_index(reader->arrays[VERTS].values.data[i], points, &point));
         reader->node_of.data[point] = 0;
     }
-    bool ours = reader->seen[DIM]; // whose nodes are points, wherever they are
-    bool merge = !share && !ours && count_of(reader, LINE_ENDS) > 1;
-    reader->draft.overlaps = merge; // VMTK's lines run from the inlet to each outlet
+    bool merge = !share && count_of(reader, LINE_ENDS) > 1;
+    reader->draft.overlaps = merge && !reader->seen[NODE]; // VMTK's lines run from the inlet to each outlet
     for (int32_t i = 0; i < points; i++) {
-        VN_TRY(reader->node_of.data[i] >= 0 ? make_node(reader, i, merge) : VN_OK);
+        bool wanted = reader->seen[NODE] || reader->node_of.data[i] >= 0;
+        VN_TRY(wanted ? make_node(reader, i, merge) : VN_OK);
     }
     return VN_OK;
 }
@@ -351,9 +365,11 @@ static vn_status make_edges(vtp_reader *reader, int32_t line, int32_t begin, int
     int32_t cell = (int32_t)reader->verts + line;
     bool join = value_at(reader, JOIN, cell) == 1;
     for (int32_t i = begin + 1; i < end; i++) {
+        int32_t point = (int32_t)reader->arrays[LINES].values.data[i];
         int32_t near = reader->node_of.data[(int32_t)reader->arrays[LINES].values.data[i - 1]];
-        int32_t far = reader->node_of.data[(int32_t)reader->arrays[LINES].values.data[i]];
-        vn_draft_edge edge = {near, far, reader->draft.radius.data[far], reader->draft.flow.data[far], join};
+        int32_t far = reader->node_of.data[point];
+        vn_draft_edge edge = {near, far, value_at(reader, RADIUS, point), value_at(reader, FLOW, point),
+                              join};
         edge.radius = join ? value_at(reader, JOIN_RADIUS, cell) : edge.radius;
         VN_TRY(near != far ? vn_draft_edge_add(&reader->draft, &edge) : VN_OK);
     }

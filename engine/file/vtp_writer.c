@@ -3,10 +3,18 @@
 #include "file/format.h"
 #include "file/xml.h"
 
+// A point besides the nodes' own: where a vein that is thinner than what it leaves begins, or a join ends.
+// Without it each lateral would be drawn as a cone.
+typedef struct vtp_point {
+    int32_t node; // where it is
+    int32_t edge; // whose radius it has: that of this node, or of join -1 - edge
+} vtp_point;
+
 typedef struct vtp_writer {
     vn_sink *sink;
     const vn_network *network;
     int32_t chains, joins, lone; // lines, lines after them, roots without an edge
+    VN_ARRAY(vtp_point) more;    // in the order of the lines
 } vtp_writer;
 
 static bool has_one_child(const vn_network *network, int32_t node) {
@@ -33,45 +41,90 @@ static vn_status close_array(const vtp_writer *writer) {
     return vn_sink_text(writer->sink, "</DataArray>\n");
 }
 
-static vn_status write_numbers(const vtp_writer *writer, const char *name, const double *values) {
-    VN_TRY(open_array(writer, "Float64", name, ""));
-    for (int32_t i = 0; i < vn_network_count(writer->network); i++) {
-        VN_TRY(vn_sink_number(writer->sink, values[i]));
-        VN_TRY(vn_sink_text(writer->sink, "\n"));
-    }
-    return close_array(writer);
+// The nodes' own points come first, each with the node's number.
+static vtp_point point_at(const vtp_writer *writer, int32_t i) {
+    int32_t nodes = vn_network_count(writer->network);
+    return i < nodes ? (vtp_point){i, i} : writer->more.data[i - nodes];
 }
 
-static vn_status write_integers(const vtp_writer *writer, const char *name, const int32_t *values) {
-    VN_TRY(open_array(writer, "Int32", name, ""));
-    for (int32_t i = 0; i < vn_network_count(writer->network); i++) {
-        VN_TRY(vn_sink_integer(writer->sink, values[i]));
-        VN_TRY(vn_sink_text(writer->sink, "\n"));
-    }
-    return close_array(writer);
+static int32_t point_count(const vtp_writer *writer) {
+    return vn_network_count(writer->network) + writer->more.count;
 }
 
-static vn_status write_radii(const vtp_writer *writer) {
-    VN_TRY(open_array(writer, "Float64", "Radius", ""));
-    for (int32_t i = 0; i < vn_network_count(writer->network); i++) {
-        VN_TRY(vn_sink_number(writer->sink, vn_network_radius(writer->network, i)));
+static double radius_of(const vn_network *network, int32_t edge) {
+    int32_t a, b;
+    double radius;
+    if (edge >= 0) {
+        return vn_network_radius(network, edge);
+    }
+    vn_network_join_ends(network, -1 - edge, &a, &b, &radius);
+    return radius;
+}
+
+typedef enum vtp_column { RADIUS, FLOW, PRESSURE, ORDER, TREE, BIRTH, NODE, COLUMNS } vtp_column;
+
+static const struct {
+    const char *name;
+    const char *type;
+} columns[COLUMNS] = {
+    [RADIUS] = {"Radius", "Float64"}, [FLOW] = {"Flow", "Float64"}, [PRESSURE] = {"Pressure", "Float64"},
+    [ORDER] = {"Order", "Int32"},     [TREE] = {"Tree", "Int32"},   [BIRTH] = {"Birth", "Int32"},
+    [NODE] = {"Node", "Int32"},
+};
+
+static bool is_there(const vn_network *network, vtp_column column) {
+    switch (column) {
+    case RADIUS:
+        return vn_network_has_radii(network);
+    case FLOW:
+        return vn_network_flow(network) != NULL;
+    case PRESSURE:
+        return vn_network_pressure(network) != NULL;
+    case ORDER:
+        return vn_network_orders(network) != NULL;
+    default:
+        return true;
+    }
+}
+
+static vn_status write_value(const vtp_writer *writer, vtp_column column, vtp_point point) {
+    const vn_network *network = writer->network;
+    int32_t edge = point.edge >= 0 ? point.edge : point.node; // what flows through joins, nobody knows
+    switch (column) {
+    case RADIUS:
+        return vn_sink_number(writer->sink, radius_of(network, point.edge));
+    case FLOW:
+        return vn_sink_number(writer->sink, vn_network_flow(network)[edge]);
+    case PRESSURE:
+        return vn_sink_number(writer->sink, vn_network_pressure(network)[point.node]);
+    case ORDER:
+        return vn_sink_integer(writer->sink, point.edge >= 0
+                                                 ? vn_network_orders(network)[edge]
+                                                 : vn_network_join_order(network, -1 - point.edge));
+    case TREE:
+        return vn_sink_integer(writer->sink, vn_network_tree(network)[point.node]);
+    case BIRTH:
+        return vn_sink_integer(writer->sink, vn_network_birth(network)[point.node]);
+    default:
+        return vn_sink_integer(writer->sink, point.node);
+    }
+}
+
+static vn_status write_column(const vtp_writer *writer, vtp_column column) {
+    VN_TRY(open_array(writer, columns[column].type, columns[column].name, ""));
+    for (int32_t i = 0; i < point_count(writer); i++) {
+        VN_TRY(write_value(writer, column, point_at(writer, i)));
         VN_TRY(vn_sink_text(writer->sink, "\n"));
     }
     return close_array(writer);
 }
 
 static vn_status write_point_data(const vtp_writer *writer) {
-    const vn_network *network = writer->network;
-    const double *flow = vn_network_flow(network), *pressure = vn_network_pressure(network);
-    VN_TRY(vn_sink_text(writer->sink, vn_network_has_radii(network) ? "<PointData Scalars=\"Radius\">\n"
-                                                                    : "<PointData>\n"));
-    VN_TRY(vn_network_has_radii(network) ? write_radii(writer) : VN_OK);
-    VN_TRY(flow != NULL ? write_numbers(writer, "Flow", flow) : VN_OK);
-    VN_TRY(pressure != NULL ? write_numbers(writer, "Pressure", pressure) : VN_OK);
-    VN_TRY(vn_network_orders(network) != NULL ? write_integers(writer, "Order", vn_network_orders(network))
-                                              : VN_OK);
-    VN_TRY(write_integers(writer, "Tree", vn_network_tree(network)));
-    VN_TRY(write_integers(writer, "Birth", vn_network_birth(network)));
+    bool radii = vn_network_has_radii(writer->network);
+    VN_TRY(vn_sink_text(writer->sink, radii ? "<PointData Scalars=\"Radius\">\n" : "<PointData>\n"));
+    for (vtp_column column = RADIUS; column < COLUMNS; column++) {
+        VN_TRY(is_there(writer->network, column) ? write_column(writer, column) : VN_OK);
+    }
     return vn_sink_text(writer->sink, "</PointData>\n");
 }
 
@@ -89,12 +142,7 @@ static vn_status write_cell_data(const vtp_writer *writer) {
     VN_TRY(close_array(writer));
     VN_TRY(open_array(writer, "Float64", "JoinRadius", ""));
     for (int32_t i = -others; i < writer->joins; i++) {
-        int32_t a, b;
-        double radius = 0;
-        if (i >= 0) {
-            vn_network_join_ends(writer->network, i, &a, &b, &radius);
-        }
-        VN_TRY(vn_sink_number(writer->sink, radius));
+        VN_TRY(vn_sink_number(writer->sink, i >= 0 ? radius_of(writer->network, -1 - i) : 0));
         VN_TRY(vn_sink_text(writer->sink, "\n"));
     }
     VN_TRY(close_array(writer));
@@ -104,9 +152,9 @@ static vn_status write_cell_data(const vtp_writer *writer) {
 static vn_status write_points(const vtp_writer *writer) {
     VN_TRY(vn_sink_text(writer->sink, "<Points>\n"));
     VN_TRY(open_array(writer, "Float64", "Points", " NumberOfComponents=\"3\""));
-    for (int32_t i = 0; i < vn_network_count(writer->network); i++) {
+    for (int32_t i = 0; i < point_count(writer); i++) {
         double p[3];
-        vn_network_position(writer->network, i, p);
+        vn_network_position(writer->network, point_at(writer, i).node, p);
         for (int k = 0; k < 3; k++) {
             VN_TRY(vn_sink_number(writer->sink, p[k]));
             VN_TRY(vn_sink_text(writer->sink, k < 2 ? " " : "\n"));
@@ -131,14 +179,58 @@ static vn_status write_verts(const vtp_writer *writer) {
     return vn_sink_text(writer->sink, "</Verts>\n");
 }
 
-static vn_status write_chain(const vtp_writer *writer, int32_t node) {
+static bool differs(const vtp_writer *writer, int32_t node, int32_t edge) {
+    return vn_network_has_radii(writer->network) &&
+           radius_of(writer->network, edge) != vn_network_radius(writer->network, node);
+}
+
+// The point of a line's end at @p node: the next of those besides, where it needs one.
+static vn_status write_end(const vtp_writer *writer, int32_t node, int32_t edge, int32_t *used) {
+    int32_t own = vn_network_count(writer->network) + *used;
+    bool needs = differs(writer, node, edge);
+    *used += needs;
+    return vn_sink_print(writer->sink, "%d ", needs ? own : node);
+}
+
+static vn_status write_chain(const vtp_writer *writer, int32_t node, int32_t *used) {
     const vn_network *network = writer->network;
-    VN_TRY(vn_sink_print(writer->sink, "%d %d", vn_network_parent(network)[node], node));
+    VN_TRY(write_end(writer, vn_network_parent(network)[node], node, used));
+    VN_TRY(vn_sink_print(writer->sink, "%d", node));
     while (has_one_child(network, node)) {
         node = vn_network_first_child(network, node);
         VN_TRY(vn_sink_print(writer->sink, " %d", node));
     }
     return vn_sink_text(writer->sink, "\n");
+}
+
+static vn_status write_join(const vtp_writer *writer, int32_t join, int32_t *used) {
+    int32_t a, b;
+    double radius;
+    vn_network_join_ends(writer->network, join, &a, &b, &radius);
+    VN_TRY(write_end(writer, a, -1 - join, used));
+    VN_TRY(write_end(writer, b, -1 - join, used));
+    return vn_sink_text(writer->sink, "\n");
+}
+
+static vn_status add_end(vtp_writer *writer, int32_t node, int32_t edge) {
+    vtp_point point = {node, edge};
+    return differs(writer, node, edge) ? vn_array_push(&writer->more, point) : VN_OK;
+}
+
+// In the order in which write_connectivity() meets them.
+static vn_status find_points(vtp_writer *writer) {
+    const vn_network *network = writer->network;
+    for (int32_t i = 0; i < vn_network_count(network); i++) {
+        VN_TRY(begins_chain(network, i) ? add_end(writer, vn_network_parent(network)[i], i) : VN_OK);
+    }
+    for (int32_t i = 0; i < writer->joins; i++) {
+        int32_t a, b;
+        double radius;
+        vn_network_join_ends(network, i, &a, &b, &radius);
+        VN_TRY(add_end(writer, a, -1 - i));
+        VN_TRY(add_end(writer, b, -1 - i));
+    }
+    return VN_OK;
 }
 
 static int64_t chain_length(const vn_network *network, int32_t node) {
@@ -150,15 +242,13 @@ static int64_t chain_length(const vn_network *network, int32_t node) {
 }
 
 static vn_status write_connectivity(const vtp_writer *writer) {
+    int32_t used = 0;
     VN_TRY(open_array(writer, "Int32", "connectivity", ""));
     for (int32_t i = 0; i < vn_network_count(writer->network); i++) {
-        VN_TRY(begins_chain(writer->network, i) ? write_chain(writer, i) : VN_OK);
+        VN_TRY(begins_chain(writer->network, i) ? write_chain(writer, i, &used) : VN_OK);
     }
     for (int32_t i = 0; i < writer->joins; i++) {
-        int32_t a, b;
-        double radius;
-        vn_network_join_ends(writer->network, i, &a, &b, &radius);
-        VN_TRY(vn_sink_print(writer->sink, "%d %d\n", a, b));
+        VN_TRY(write_join(writer, i, &used));
     }
     return close_array(writer);
 }
@@ -209,6 +299,21 @@ static vn_status write_piece(const vtp_writer *writer) {
     return write_lines(writer);
 }
 
+static vn_status write_file(const vtp_writer *writer, const char *manifest) {
+    VN_TRY(vn_sink_text(writer->sink, "<?xml version=\"1.0\"?>\n"));
+    VN_TRY(vn_xml_manifest(writer->sink, manifest));
+    VN_TRY(vn_sink_text(writer->sink,
+                        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                        "header_type=\"UInt64\">\n<PolyData>\n"));
+    VN_TRY(write_field_data(writer));
+    VN_TRY(vn_sink_print(writer->sink,
+                         "<Piece NumberOfPoints=\"%d\" NumberOfVerts=\"%d\" NumberOfLines=\"%d\" "
+                         "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
+                         point_count(writer), writer->lone, writer->chains + writer->joins));
+    VN_TRY(write_piece(writer));
+    return vn_sink_text(writer->sink, "</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
 vn_status vn_vtp_write(vn_sink *sink, const vn_networks_given *given) {
     vtp_writer writer = {.sink = sink, .network = given->networks[0]};
     for (int32_t i = 0; i < vn_network_count(writer.network); i++) {
@@ -216,15 +321,8 @@ vn_status vn_vtp_write(vn_sink *sink, const vn_networks_given *given) {
         writer.lone += is_lone(writer.network, i);
     }
     writer.joins = vn_network_join_count(writer.network);
-    VN_TRY(vn_sink_text(sink, "<?xml version=\"1.0\"?>\n"));
-    VN_TRY(vn_xml_manifest(sink, given->manifest));
-    VN_TRY(vn_sink_text(sink, "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                              "header_type=\"UInt64\">\n<PolyData>\n"));
-    VN_TRY(write_field_data(&writer));
-    VN_TRY(vn_sink_print(sink,
-                         "<Piece NumberOfPoints=\"%d\" NumberOfVerts=\"%d\" NumberOfLines=\"%d\" "
-                         "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
-                         vn_network_count(writer.network), writer.lone, writer.chains + writer.joins));
-    VN_TRY(write_piece(&writer));
-    return vn_sink_text(sink, "</Piece>\n</PolyData>\n</VTKFile>\n");
+    vn_status status = find_points(&writer);
+    status = status == VN_OK ? write_file(&writer, given->manifest) : status;
+    vn_array_free(&writer.more);
+    return status;
 }

@@ -244,6 +244,37 @@ static void loops_become_joins_and_idle_points_go(void **state) {
     vn_network_destroy(network);
 }
 
+static void assert_holds(const char *path, const char *part) {
+    size_t size;
+    char *text = take_file(path, &size);
+    if (strstr(text, part) == NULL) {
+        fail_msg("no \"%s\" in:\n%s", part, text);
+    }
+    free(text);
+}
+
+// Else each would be drawn as a cone.
+static void laterals_and_joins_begin_at_their_own_radius(void **state) {
+    (void)state;
+    vn_network *network = network_of(2);
+    put_root(network, 0, 10, 0);
+    put_child(network, 0, 0, 6, 0);
+    put_child(network, 1, 3, 2, 0);
+    put_child(network, 1, -1, 2, 0);
+    assert_ok(vn_network_set_radii(network, (double[]){0.5, 0.5, 0.5, 0.25}));
+    assert_ok(vn_network_join(network, 2, 3, 0.25));
+    save_one(network, in_folder("a.vtp"), NULL);
+    assert_holds(in_folder("a.vtp"), "NumberOfPoints=\"6\" NumberOfVerts=\"0\" NumberOfLines=\"4\"");
+    assert_holds(in_folder("a.vtp"), "format=\"ascii\">\n0 1\n1 2\n4 3\n5 3 \n</DataArray>");
+    assert_holds(in_folder("a.vtp"), "Name=\"Radius\" format=\"ascii\">\n0.5\n0.5\n0.5\n0.25\n0.25\n0.25\n<");
+    assert_holds(in_folder("a.vtp"), "Name=\"Node\" format=\"ascii\">\n0\n1\n2\n3\n1\n2\n<");
+    assert_holds(in_folder("a.vtp"), "0 6 0\n3 2 0\n</DataArray>");
+    vn_network *again = load_one(in_folder("a.vtp"));
+    assert_same_network(network, again, ALL);
+    vn_network_destroy(network);
+    vn_network_destroy(again);
+}
+
 // A text of more than libxml2 keeps in one piece.
 static void long_arrays_are_no_matter(void **state) {
     (void)state;
@@ -262,9 +293,13 @@ static void long_arrays_are_no_matter(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        counted_test(every_coding_is_read),      counted_test(cut_off_arrays_are_refused),
-        counted_test(spoiled_arrays_do_no_harm), counted_test(lines_that_share_no_points_are_joined_by_place),
-        counted_test(lines_may_run_either_way),  counted_test(loops_become_joins_and_idle_points_go),
+        counted_test(every_coding_is_read),
+        counted_test(cut_off_arrays_are_refused),
+        counted_test(spoiled_arrays_do_no_harm),
+        counted_test(lines_that_share_no_points_are_joined_by_place),
+        counted_test(lines_may_run_either_way),
+        counted_test(loops_become_joins_and_idle_points_go),
+        counted_test(laterals_and_joins_begin_at_their_own_radius),
         counted_test(long_arrays_are_no_matter),
     };
     return cmocka_run_group_tests(tests, make_folder, drop_folder);
