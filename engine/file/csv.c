@@ -50,8 +50,8 @@ static char find_separator(vn_slice header) {
 }
 
 static vn_status read_name(csv_reader *reader, vn_slice name) {
-    uint8_t found = SKIPPED;
-    for (uint8_t i = 0; i < COLUMNS; i++) {
+    csv_column found = SKIPPED;
+    for (csv_column i = X; i < COLUMNS; i++) {
         if (vn_slice_is(name, column_names[i])) {
             found = i;
         }
@@ -65,7 +65,7 @@ static vn_status read_name(csv_reader *reader, vn_slice name) {
     if (found != SKIPPED) {
         reader->has[found] = true;
     }
-    reader->column_of[reader->fields++] = found;
+    reader->column_of[reader->fields++] = (uint8_t)found;
     return VN_OK;
 }
 

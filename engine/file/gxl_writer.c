@@ -84,7 +84,7 @@ static vn_status write_position(const gxl_writer *writer, int32_t node) {
     double p[3];
     vn_network_position(writer->network, node, p);
     VN_TRY(vn_sink_text(writer->sink, "    <attr name=\" position\">\n      <tup>\n"));
-    for (int k = 0; k < vn_network_dim(writer->network); k++) {
+    for (int k = 0; k < vn_network_dim(writer->network) && k < 3; k++) {
         VN_TRY(vn_sink_text(writer->sink, "        <float>"));
         VN_TRY(vn_sink_number(writer->sink, p[k]));
         VN_TRY(vn_sink_text(writer->sink, "</float>\n"));
@@ -211,12 +211,14 @@ static vn_status find_resistances(gxl_writer *writer, const char *manifest) {
     if (viscosity == 0 || !writer->has_radii || vn_network_join_count(network) > 0) {
         return VN_OK;
     }
+    // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): cleared only where there is something
     VN_TRY(vn_array_zero(&writer->resistance, vn_network_count(network)));
     for (int32_t k = vn_network_count(network) - 1; k >= 0; k--) {
         int32_t node = vn_network_nth(network, k);
         if (vn_network_parent(network)[node] < 0) {
             continue;
         }
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): one of each node
         writer->resistance.data[node] = reduced_resistance(writer, node, viscosity);
         if (!(writer->resistance.data[node] <= VN_HUGE)) { // an edge without a radius lets nothing through
             vn_array_free(&writer->resistance);

@@ -133,6 +133,7 @@ vn_status vn_xml_read(const char *path, FILE *file, const vn_xml_handler *handle
     }
     xmlCtxtUseOptions(stream.parser, XML_PARSE_NONET);
     vn_status status = feed(&stream, path, file);
+    xmlFreeDoc(stream.parser->myDoc); // it keeps the entities that a file declares, even unasked
     xmlFreeParserCtxt(stream.parser);
     return status;
 }

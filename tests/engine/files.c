@@ -127,7 +127,7 @@ void save_one(const vn_network *network, const char *path, const char *manifest)
 
 static void assert_same_numbers(const double *a, const double *b, int32_t count, const char *what) {
     assert_int_equal(a == NULL, b == NULL);
-    for (int32_t i = 0; i < count && a != NULL; i++) {
+    for (int32_t i = 0; i < count && a != NULL && b != NULL; i++) {
         if (a[i] != b[i]) {
             fail_msg("%s of node %d was %.17g and is %.17g", what, i, a[i], b[i]);
         }

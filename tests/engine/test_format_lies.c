@@ -76,6 +76,8 @@ static const lie lies[] = {
      "says that it has 1e+09 points, but holds 3 coordinates"},
     {"vtp", PIECE(POINT "<PointData>" ARRAY("Radius", "Float64", "1 2") "</PointData>"),
      "Radius has 2 entries, but there are 1 points"},
+    {"vtp", PIECE(POINT "<PointData>" ARRAY("Node", "Int32", "1") "</PointData>"),
+     "Node[0] = 1 must be from 0 to 0"},
     {"vtp",
      PIECE(POINT "<Lines>" ARRAY("connectivity", "Int32", "0 1") ARRAY("offsets", "Int32", "2") "</Lines>"),
      "a line has point 1, but there are 1 points"},
