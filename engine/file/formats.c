@@ -139,13 +139,16 @@ vn_status vn_network_save(const vn_network *network, const char *path, const cha
     return vn_networks_save(&network, NULL, 1, path, manifest);
 }
 
-// What a reader says of the file's contents does not name the file yet.
+// What a reader says of the file's contents does not name the file yet, and may quote any byte of it.
 static vn_status name_file(const char *path, vn_status status) {
     if (status != VN_INVALID) {
         return status;
     }
     char message[500];
     snprintf(message, sizeof message, "%s", vn_message());
+    for (char *at = message; *at != '\0'; at++) {
+        *at = (unsigned char)*at < 0x20 || *at == 0x7F ? '?' : *at;
+    }
     return vn_fail(VN_IO, "%s: %s", path, message);
 }
 

@@ -30,6 +30,8 @@ static const lie lies[] = {
     {"gxl", GXL("<node/>"), "<node> has no id"},
     {"gxl", GXL("<node id=\"a\"/>"), "node \"a\" has no position"},
     {"gxl", GXL(NODE("a") NODE(" a")), "node \"a\" is given twice"},
+    {"gxl", GXL(NODE("a&#10;b") NODE("a&#10;b")), "node \"a?b\" is given twice"},
+    {"swc", "1 0 \x1b[2J", "x = \"?[2J\" must be a number"},
     {"gxl", GXL("<node id=\"a\"><attr name=\"position\"><tup><float>1</float></tup></attr></node>"),
      "has no position"},
     {"gxl",

@@ -161,7 +161,7 @@ static void segments_come_back(void **state) {
 static void segments_without_their_root_hang_together(void **state) {
     (void)state;
     put_text(in_folder("a.txt"),
-             "4 0 1 2 1 0 0.5\n0 3 1 2 1 0 0.25\r\n\n5 5 5 4 0 1 0.125\n3 -1 2 4 0 1 .125");
+             "4 0 1 2 1 0 0.5\n0 3 1 2 1 -0 0.25\r\n\n5 5 5 4 0 1 0.125\n3 -1 2 4 0 1 .125");
     vn_network *network = load_one(in_folder("a.txt"));
     static const int32_t parents[] = {-1, 0, 0, 1, 1};
     static const double radii[] = {0.5, 0.5, 0.25, 0.125, 0.125};

@@ -105,9 +105,10 @@ static void put_array(page *out, const char *name, int components, const double 
 }
 
 // A Y of five points: 0 to 1 to 2, and 1 to 3 to 4. All its numbers are exact in 32 bits.
-static void write_y(const char *path, const coding *c) {
+static void write_y_from(const char *path, const coding *c, double first) {
     static const double points[] = {0, 0, 0, 0, 1, 0.5, -1, 2, 0, 1, 2, 0, 1.5, 3, -8};
-    static const double radius[] = {3, 3, 1, 2, 0.5}, lines[] = {0, 1, 2, 1, 3, 4}, ends[] = {3, 6};
+    static const double radius[] = {3, 3, 1, 2, 0.5}, ends[] = {3, 6};
+    const double lines[] = {first, 1, 2, 1, 3, 4};
     page out = {calloc(1 << 18, 1), calloc(1 << 18, 1), 0, 0};
     put(&out,
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" byte_order=\"%s\" "
@@ -132,6 +133,10 @@ static void write_y(const char *path, const coding *c) {
     free(out.tail);
 }
 
+static void write_y(const char *path, const coding *c) {
+    write_y_from(path, c, 0);
+}
+
 static void assert_y(const char *path) {
     static const double x[] = {0, 0, -1, 1, 1.5}, z[] = {0, 0.5, 0, 0, -8}, radius[] = {3, 3, 1, 2, 0.5};
     static const int32_t parents[] = {-1, 0, 1, 1, 3};
@@ -152,6 +157,10 @@ static void every_coding_is_read(void **state) {
         coding c = {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
         write_y(in_folder("a.vtp"), &c);
         assert_y(in_folder("a.vtp"));
+        vn_network_set set;
+        write_y_from(in_folder("a.vtp"), &c, -1);
+        assert_int_equal(vn_networks_load(&set, in_folder("a.vtp")), VN_IO);
+        assert_message("a line has point -1, but there are 5 points");
     }
 }
 
