@@ -83,11 +83,11 @@ static uint64_t bits_of(double value) {
     return bits;
 }
 
-int32_t vn_places_count(const vn_places *places) {
+int32_t vn_sites_count(const vn_sites *places) {
     return places->coordinates.count / 3;
 }
 
-static int32_t *place_slot(vn_places *places, const double p[3]) {
+static int32_t *place_slot(vn_sites *places, const double p[3]) {
     uint32_t mask = (uint32_t)places->slots.count - 1;
     uint32_t at = (uint32_t)vn_hash(0, bits_of(p[0]), bits_of(p[1]), bits_of(p[2])) & mask;
     for (; places->slots.data[at] >= 0; at = (at + 1) & mask) {
@@ -99,8 +99,8 @@ static int32_t *place_slot(vn_places *places, const double p[3]) {
     return &places->slots.data[at];
 }
 
-static vn_status places_make_room(vn_places *places) {
-    int32_t count = vn_places_count(places);
+static vn_status places_make_room(vn_sites *places) {
+    int32_t count = vn_sites_count(places);
     int64_t size = slots_for(&places->slots, count);
     VN_TRY(vn_array_reserve(&places->coordinates, 3 * ((int64_t)count + 1)));
     if (size == places->slots.count) {
@@ -113,11 +113,11 @@ static vn_status places_make_room(vn_places *places) {
     return VN_OK;
 }
 
-vn_status vn_places_number(vn_places *places, const double p[3], int32_t *number) {
+vn_status vn_sites_number(vn_sites *places, const double p[3], int32_t *number) {
     VN_TRY(places_make_room(places));
     int32_t *slot = place_slot(places, p);
     if (*slot < 0) {
-        *slot = vn_places_count(places);
+        *slot = vn_sites_count(places);
         memcpy(places->coordinates.data + places->coordinates.count, p, 3 * sizeof *p);
         places->coordinates.count += 3;
     }
@@ -125,7 +125,7 @@ vn_status vn_places_number(vn_places *places, const double p[3], int32_t *number
     return VN_OK;
 }
 
-void vn_places_free(vn_places *places) {
+void vn_sites_free(vn_sites *places) {
     vn_array_free(&places->coordinates);
     vn_array_free(&places->slots);
 }

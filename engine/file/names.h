@@ -19,14 +19,14 @@ vn_status vn_names_number(vn_names *names, vn_slice name, int32_t *number);
 vn_slice vn_names_name(const vn_names *names, int32_t number);
 void vn_names_free(vn_names *names);
 
-typedef struct vn_places {
+typedef struct vn_sites {
     VN_ARRAY(double) coordinates; ///< three of each place
     vn_slots slots;
-} vn_places;
+} vn_sites;
 
 /// The number of a place; the next one when it is new. 0 and -0 are one.
-vn_status vn_places_number(vn_places *places, const double p[3], int32_t *number);
-int32_t vn_places_count(const vn_places *places);
-void vn_places_free(vn_places *places);
+vn_status vn_sites_number(vn_sites *places, const double p[3], int32_t *number);
+int32_t vn_sites_count(const vn_sites *places);
+void vn_sites_free(vn_sites *places);
 
 #endif

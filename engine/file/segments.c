@@ -11,12 +11,12 @@ enum { FIELDS = 7 };
 
 static const char *const field_names[FIELDS] = {"xd", "yd", "zd", "xp", "yp", "zp", "r"};
 
-static vn_status node_at(vn_draft *draft, vn_places *places, const double p[3], int32_t *node) {
-    VN_TRY(vn_places_number(places, p, node));
+static vn_status node_at(vn_draft *draft, vn_sites *places, const double p[3], int32_t *node) {
+    VN_TRY(vn_sites_number(places, p, node));
     return *node == draft->x.count ? vn_draft_node(draft, p) : VN_OK;
 }
 
-static vn_status read_row(vn_draft *draft, vn_places *places, vn_slice rest, long long line) {
+static vn_status read_row(vn_draft *draft, vn_sites *places, vn_slice rest, long long line) {
     double values[FIELDS];
     vn_draft_edge edge = {.flow = NAN};
     for (int i = 0; i < FIELDS; i++) {
@@ -39,7 +39,7 @@ static vn_status read_row(vn_draft *draft, vn_places *places, vn_slice rest, lon
     return vn_draft_edge_add(draft, &edge);
 }
 
-static vn_status read_lines(vn_draft *draft, vn_places *places, vn_lines *lines) {
+static vn_status read_lines(vn_draft *draft, vn_sites *places, vn_lines *lines) {
     for (;;) {
         vn_slice line;
         VN_TRY(vn_lines_next(lines, &line));
@@ -65,7 +65,7 @@ static void forget_zero_radii(vn_draft *draft) {
 
 vn_status vn_segments_read(vn_network_set *set, const char *path, FILE *file) {
     vn_draft draft = {0};
-    vn_places places = {0};
+    vn_sites places = {0};
     vn_lines *lines;
     VN_TRY(vn_lines_open(&lines, path, file));
     vn_status status = read_lines(&draft, &places, lines);
@@ -75,17 +75,17 @@ vn_status vn_segments_read(vn_network_set *set, const char *path, FILE *file) {
     }
     status = status == VN_OK ? vn_draft_finish(&draft, set) : status;
     vn_lines_close(lines);
-    vn_places_free(&places);
+    vn_sites_free(&places);
     vn_draft_free(&draft);
     return status;
 }
 
 // What a reader could not connect again as it was, it must not be given.
-static vn_status check_node(const vn_network *network, vn_places *places, int32_t node) {
+static vn_status check_node(const vn_network *network, vn_sites *places, int32_t node) {
     double p[3];
     int32_t number;
     vn_network_position(network, node, p);
-    VN_TRY(vn_places_number(places, p, &number));
+    VN_TRY(vn_sites_number(places, p, &number));
     if (number != node) {
         return vn_fail(VN_INVALID,
                        "nodes %d and %d are at one place, which such a file cannot tell; save it as .json",
@@ -99,12 +99,12 @@ static vn_status check_node(const vn_network *network, vn_places *places, int32_
 }
 
 static vn_status check_nodes(const vn_network *network) {
-    vn_places places = {0};
+    vn_sites places = {0};
     vn_status status = VN_OK;
     for (int32_t i = 0; i < vn_network_count(network) && status == VN_OK; i++) {
         status = check_node(network, &places, i);
     }
-    vn_places_free(&places);
+    vn_sites_free(&places);
     return status;
 }
 

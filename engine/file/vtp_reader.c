@@ -62,7 +62,7 @@ typedef struct vtp_reader {
     bool appended;   // the text is what all of these share
     vn_text tail;
     VN_ARRAY(int32_t) node_of; // of each point; -1: no line has it
-    vn_places places;
+    vn_sites places;
 } vtp_reader;
 
 static vn_status begin_file(vtp_reader *reader, const vn_xml_tag *tag) {
@@ -327,7 +327,7 @@ static vn_status make_node(vtp_reader *reader, int32_t point, bool merge) {
     if (reader->seen[NODE]) {
         VN_TRY(named_node(reader, point, &node));
     } else if (merge) {
-        VN_TRY(vn_places_number(&reader->places, p, &node));
+        VN_TRY(vn_sites_number(&reader->places, p, &node));
     }
     reader->node_of.data[point] = node;
     if (node < reader->draft.x.count) {
@@ -423,7 +423,7 @@ vn_status vn_vtp_read(vn_network_set *set, const char *path, FILE *file) {
         vn_vtp_free(&reader.arrays[i]);
     }
     vn_draft_free(&reader.draft);
-    vn_places_free(&reader.places);
+    vn_sites_free(&reader.places);
     vn_array_free(&reader.node_of);
     vn_array_free(&reader.tail);
     return status;

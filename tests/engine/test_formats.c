@@ -425,6 +425,57 @@ static void gxl_is_what_its_readers_look_for(void **state) {
     vn_network_destroy(network);
 }
 
+enum { TERMINALS = 150 };
+
+static void save_cco_tree(const char *path) {
+    vn_domain *disk = disk_of(0, 0, 80);
+    vn_cco_def def = vn_cco_def_default();
+    vn_cco_tree_def tree = vn_cco_tree_def_default();
+    vn_cco *cco;
+    vn_network *network;
+    int32_t number;
+    def.domain = disk;
+    def.terminals = TERMINALS;
+    tree.root[1] = 80;
+    assert_ok(vn_cco_create(&cco, &def));
+    assert_ok(vn_cco_add(cco, &tree, &number));
+    assert_ok(vn_cco_grow(cco, TERMINALS, &number));
+    assert_ok(vn_cco_network(cco, 0, &network));
+    save_one(network, path, "{\"parameters\": {\"viscosity\": 0.0036}}");
+    vn_network *again = load_one(path);
+    assert_same_network(network, again, RADII | FLOWS | PRESSURES);
+    vn_network_destroy(again);
+    vn_network_destroy(network);
+    vn_cco_destroy(cco);
+    vn_domain_release(disk);
+}
+
+// From the text alone: what an edge carries through all that it feeds falls from its near node to the
+// terminals.
+static void the_physics_of_a_tree_can_be_read_from_its_gxl(void **state) {
+    (void)state;
+    double pressure[2 * TERMINALS], terminal;
+    int from, edges = 0, node;
+    size_t size;
+    save_cco_tree(in_folder("a.xml"));
+    char *text = take_file(in_folder("a.xml"), &size);
+    terminal = number_after(text, " pTerm");
+    assert_near(terminal, 60 * 133.322, 1e-2);
+    assert_near(number_after(text, " pPerf"), 100 * 133.322, 1e-2);
+    for (char *at = strstr(text, "<node"); at != NULL; at = strstr(at + 1, "<node")) {
+        assert_int_equal(sscanf(at, "<node id=\"n%d\"", &node), 1);
+        pressure[node] = strtod(strstr(at, "pressure=\"") + 10, NULL);
+    }
+    for (char *at = strstr(text, "<edge"); at != NULL; at = strstr(at + 1, "<edge"), edges++) {
+        assert_int_equal(sscanf(at, "<edge id=\"e%d\" to=\"n%*d\" from=\"n%d\"", &node, &from), 2);
+        double fall =
+            number_after(at, " flow") * number_after(at, " resistance") / pow(number_after(at, " radius"), 4);
+        assert_near(fall / (pressure[from] - terminal), 1, 1e-6);
+    }
+    assert_int_equal(edges, 2 * TERMINALS - 1);
+    free(text);
+}
+
 static void without_a_viscosity_there_is_no_resistance(void **state) {
     (void)state;
     static const char *const manifests[] = {NULL, "{}", "{\"viscosity\": \"thick\"}", "{\"viscosity\": -1}"};
@@ -555,6 +606,7 @@ int main(void) {
         counted_test(directed_edges_make_parents_or_joins),
         counted_test(undirected_edges_are_turned_away_from_a_root),
         counted_test(gxl_is_what_its_readers_look_for),
+        counted_test(the_physics_of_a_tree_can_be_read_from_its_gxl),
         counted_test(without_a_viscosity_there_is_no_resistance),
         counted_test(tables_are_the_documented_ones),
         counted_test(a_manifest_comes_back_where_there_is_a_place_for_it),
