@@ -35,14 +35,16 @@ typedef struct vn_cco_def {
                    ///< insides of vessels (Algorithms 2 and 3); READINGS R11
     int32_t
         tries; ///< darts before the threshold of (15) is lowered; default 0: 100, or 1000 with "terminals"
-    double threshold;       ///< what it is multiplied by then; above 0, below 1; default 0.9
-    double spacing;         ///< of terminals from vessels, in units of (15); above 0; default 1
-    int32_t candidates;     ///< nearest segments that are tried first; doubled while none will do; default 20
-    int32_t most_candidates; ///< but no more than these; default 640, beyond which next to nothing is ever found
-    int32_t redraws;        ///< terminals drawn anew before the tree counts as full; default 200
-    /// New vessels need room to thicken later: so that a subtree of m terminals may come to 1 + foresight / sqrt(m)
-    /// times its share of the flow. Without it vessels near the root get stuck between others now and then, and part
-    /// of the organ stays empty. 0 or more: none; default -1: 2, and 0 for a list of terminals.
+    double threshold;   ///< what it is multiplied by then; above 0, below 1; default 0.9
+    double spacing;     ///< of terminals from vessels, in units of (15); above 0; default 1
+    int32_t candidates; ///< nearest segments that are tried first; doubled while none will do; default 20
+    int32_t
+        most_candidates; ///< but no more than these; default 640, beyond which next to nothing is ever found
+    int32_t redraws;     ///< terminals drawn anew before the tree counts as full; default 200
+    /// New vessels need room to thicken later: so that a subtree of m terminals may come to 1 + foresight /
+    /// sqrt(m) times its share of the flow. Without it vessels near the root get stuck between others now and
+    /// then, and part of the organ stays empty. 0 or more: none; default -1: 2, and 0 for a list of
+    /// terminals.
     double foresight;
     int bifurcation;        ///< 0 "least": the point of least volume; 1 "kamiya": Equations 8 to 13 alone; 2
                             ///< "ceres": these with (12) handed to Ceres' tiny solver

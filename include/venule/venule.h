@@ -5,10 +5,10 @@
 
 #include "venule/attractors.h"
 #include "venule/base.h"
+#include "venule/cco.h"
 #include "venule/domain.h"
 #include "venule/flow.h"
 #include "venule/growth.h"
-#include "venule/cco.h"
 #include "venule/network.h"
 #include "venule/output.h"
 #include "venule/voxels.h"

@@ -57,6 +57,47 @@ local venule = {domain = {}, growth = {}, leaf = {}}
 ---@field angles {count: integer, daughters: number, bins: {from: number, to: number, count: integer, thick_middle: number, thick_thin: number, middle_thin: number}[]}
 ---@field distance {resolution: number, points: integer, mean: number, max: number, mode: number}
 
+---@class venule.FlowWorst
+---@field error number # relative
+---@field node? integer # where: the node, or the node whose edge it is
+---@field join? integer # or the join
+
+---@class venule.FlowReport
+---@field inflow number # at all roots, length³/s
+---@field outflow number # at all terminals, length³/s
+---@field volume number # Σ π r² ℓ, length³
+---@field resistance number # power / inflow², Pa s/length³
+---@field power number # Σ R Q², Pa length³/s
+---@field conservation venule.FlowWorst # in less out, by what passes a node
+---@field drop venule.FlowWorst # loss along an edge less Poiseuille's, by the span of pressures
+---@field terminal venule.FlowWorst # pressure less pressure_out, by it
+---@field terminal_pressure venule.Statistics # Pa
+---@field terminal_flow venule.Statistics # length³/s
+---@field wall_shear venule.Statistics # of edges, 4 μ |Q| / (π r³), Pa
+---@field murray venule.Statistics # |r_parent^exponent - Σ r_child^exponent| / r_parent^exponent at forks
+---@field fitted venule.Statistics # the exponents that make it 0
+---@field terminals {node: integer[], pressure: number[], flow: number[]}
+---@field edge_shear number[] # Pa, of each node's edge; 0 at a root
+---@field join_shear number[] # Pa, of each join
+
+---@class venule.Spread
+---@field mean number
+---@field deviation number
+
+---@class venule.Level
+---@field level integer # forks between the root and it
+---@field count integer # segments
+---@field diameter venule.Spread
+---@field length venule.Spread
+---@field flow? venule.Spread # where flows are known
+
+---@class venule.Levels
+---@field [integer] venule.Level
+---@field segments integer
+---@field symmetry venule.Statistics # thinnest daughter's radius by the thickest's
+---@field slenderness venule.Statistics # length by diameter
+---@field angle venule.Statistics # degrees, between two daughters
+
 ---@class (exact) venule.network.Options
 ---@field dim? integer # dimensions: 2 or 3 (default 2)
 ---@field max_nodes? integer # a network that would grow beyond it fails; guards against a script that runs away, nodes (default 1e+08)
@@ -68,15 +109,25 @@ local venule = {domain = {}, growth = {}, leaf = {}}
 ---@return venule.Network
 function venule.network(options) end
 
----Read a network from a JSON file; or, where it holds several, a table of them by name.
+---Read a network from a file, by its extension; or, where it holds several (.json), a table of them by name.
 ---@param path string
 ---@return venule.Network|table<string, venule.Network>
 function venule.load(path) end
 
----Write one network, or several by name, as JSON.
+---Write one network, or several by name (.json), by the extension.
 ---@param path string
 ---@param networks venule.Network|table<string, venule.Network>
 function venule.save(path, networks) end
+
+---Whether a file of that name can hold them; if not, why.
+---@param path string
+---@param networks venule.Network|table<string, venule.Network>
+---@return boolean, string?
+function venule.can_save(path, networks) end
+
+---The extensions that networks are written and read by.
+---@return string[]
+function venule.formats() end
 
 ---@class (exact) venule.attractors.Options
 ---@field dim? integer # dimensions: 2 or 3 (default 2)
@@ -94,11 +145,32 @@ function venule.attractors(options) end
 ---@field margin? number # kept free around the view, pixels (default 10)
 ---@field background? string # a colour, or "none" (default "none")
 ---@field unit? string # length unit of the view: "mm", "cm", "m", "um", "in" or "pt"; pages (SVG, PDF) are then at true scale; "": 96 pixels an inch (default "")
+---@field camera? any # how to look at space: the eye, what it looks at and what is up (each has a good default), the angle that is seen in degrees (0: a parallel projection), and how much what is far fades (0 to 1); without it, from straight above
 
 ---An empty picture.
 ---@param options venule.canvas.Options
 ---@return venule.Canvas
 function venule.canvas(options) end
+
+---How long a line of text is at a size in pixels.
+---@param text string
+---@param size number
+---@return number
+function venule.text_width(text, size) end
+
+---@class (exact) venule.voxels.Options
+---@field network? venule.Network # what becomes voxels
+---@field networks? any # several networks of one unit
+---@field content? "mask"|"label"|"tree"|"order"|"segment"|"radius"|"centerline"|"vesselness" # what a voxel says: whether there is a vessel, of which network, tree, vein order or branch (the node at its far end), of which radius; whether it is on the centre line; which part of it vessels fill (default "mask")
+---@field resolution? number # side of a voxel, length
+---@field size? integer # along the longest side, in place of a resolution; left out: 128, voxels
+---@field margin? integer # kept free on all sides; left out: 1, or 0 around bounds that are given, voxels
+---@field bounds? any # what the volume covers, where vessels are cut; left out: all vessels, length
+
+---Make voxels of one network or of several: cubes, or squares in 2D. What hangs together in a network hangs together in voxels, however thin it is; where tubes overlap, the one that a voxel lies deepest in has it. `networks` by name are numbered by alphabet: arteries 1, veins 2.
+---@param options venule.voxels.Options
+---@return venule.Volume
+function venule.voxels(options) end
 
 ---Random numbers that depend on nothing but the seed.
 ---@param seed integer
@@ -147,9 +219,10 @@ function venule.tell_stall() end
 ---@field margin? number # kept free around the view
 ---@field view? any # bounds of what it shows; left out: those of the networks
 ---@field background? string # of the canvas that picture is given
+---@field camera? table # of the canvas that picture is given: how to look at space
 ---@field unit? string # length unit of the view; left out: the view's own, or the network's
 
----Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf: the picture; .json: the networks); without one, a file called after the script.
+---Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf, .eps: the picture; .json: the networks); without one, a file called after the script.
 ---@param options venule.result.Options
 function venule.result(options) end
 
@@ -205,6 +278,37 @@ function venule.veinlets(options) end
 ---@param options venule.brochidodromous.Options
 ---@return {network: venule.Network, arches: integer}
 function venule.brochidodromous(options) end
+
+---@class (exact) venule.plot.Options
+---@field width? number # of the whole picture; 96 pixels are an inch on paper
+---@field height? number # of the whole picture
+---@field title? string # above the plot
+---@field x? table # the axis to the right: {label=, log=, min=, max=}
+---@field y? table # the axis upwards: {label=, log=, min=, max=}
+---@field series table # a list of what is drawn: {x=, y=, deviation=, band=, label=, color=, marks=, line=}
+---@field background? string # a colour, or "none"
+---@field text_size? number # of the numbers at the axes; labels are as large
+
+---Numbers as a figure, on a canvas to save or draw on: lines and dots, deviations as bars or bands, plain or logarithmic axes. A legend stands where it covers nothing. What an axis and a series may say is below.
+---@param options venule.plot.Options
+---@return venule.Canvas
+function venule.plot(options) end
+
+---@class (exact) venule.plot.axis.Options
+---@field label? string # what it measures, and the unit
+---@field log? boolean # logarithmic: for values above 0
+---@field min? number # where it begins; left out: so that all is seen
+---@field max? number # where it ends; left out: so that all is seen
+
+---@class (exact) venule.plot.series.Options
+---@field x any # a list of numbers; a point that has one that is not finite is left out, and breaks the line
+---@field y any # a list of as many numbers
+---@field deviation? any # a list of as many, or one number: y is drawn with so much above and below it
+---@field band? boolean # deviations as a band instead of bars
+---@field label? string # what it is, in the legend
+---@field color? string # left out: one that the others have not
+---@field marks? boolean # a dot at each point; left out: where there are 60 or fewer
+---@field line? boolean # a line from point to point
 
 ---@class (exact) venule.leaf.entire.Options
 ---@field length? number # from the petiole to the tip
@@ -434,13 +538,23 @@ function venule.domain.profile(options) end
 function venule.domain.svg(path, options) end
 
 ---@class (exact) venule.mesh.Options
----@field on? "surface" # what of the mesh is the domain: its surface (default "surface")
+---@field on? "surface"|"inside" # what of the mesh is the domain: its surface, or what it encloses (default "surface")
+---@field check? boolean # of an inside: refuse a mesh that crosses itself; without, what is in two of its parts is outside (default true)
 
----The surface of a mesh in 3D: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along it: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds.
+---The surface of a mesh in 3D, or with `on = "inside"` what it encloses: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a cavity, whichever way their faces turn.
 ---@param mesh string|{vertices: number[][], faces: integer[][]}
 ---@param options? venule.mesh.Options
 ---@return venule.Domain
 function venule.domain.mesh(mesh, options) end
+
+---@class (exact) venule.shell.Options
+---@field domain venule.Domain|venule.Growth # what it is the shell of
+---@field thickness number # how far it reaches inwards from the border, length
+
+---What of a domain is near its border: everything but a core that is `thickness` inside. Of a growing domain, always of today's shape.
+---@param options venule.shell.Options
+---@return venule.Domain
+function venule.domain.shell(options) end
 
 ---@class (exact) venule.none.Options
 ---@field domain venule.Domain|venule.Growth # the shape, which stays as it is
@@ -603,6 +717,8 @@ function Growth:map(x, y, t1, t2) end
 ---@field parent integer[] # each node's parent, 0 at a root
 ---@field radius number[] # of the edge to the parent; at a root, of its thickest child
 ---@field order integer[] # of that edge, once net:orders(…) was called
+---@field flow number[] # through that edge (length³/s), what enters at a root; once net:flow{…} was called
+---@field pressure number[] # at the nodes (Pa), likewise
 ---@field tree integer[] # which root each node hangs from, counted from 1
 ---@field birth integer[] # the step each node was born in
 ---@field dim integer # 2 or 3
@@ -663,8 +779,8 @@ function Network:extend(influence, options) end
 ---@return integer[]
 function Network:children(node) end
 
----The extra edges that close loops, with their radii; by Murray's law a is the parent.
----@return {a: integer, b: integer, radius: number}[]
+---The extra edges that close loops, with their radii; by Murray's law a is the parent. `flow`, from a to b, once net:flow{…} was called.
+---@return {a: integer, b: integer, radius: number, flow?: number}[]
 function Network:joins() end
 
 ---@class (exact) venule.orders.Options
@@ -685,11 +801,35 @@ function Network:orders(kind, options) end
 ---@return venule.Measures
 function Network:measure(options) end
 
+---@class (exact) venule.flow.Options
+---@field solve? any # false: leave flows and pressures as they are, and check them; left out: find them first
+---@field viscosity? number # of what flows: 3.6 cP is blood's, Pa s (default 0.0036)
+---@field pressure_in? number # at every root: 13332.2 Pa is 100 mmHg, Pa (default 13332.2)
+---@field pressure_out? number # at every terminal, a node other than a root with a single edge: 7999.32 Pa is 60 mmHg, Pa (default 7999.32)
+---@field inflow? number # what enters in all, in place of the pressure where `share` says; left out: pressures hold, length³/s
+---@field share? "roots"|"terminals" # who lets `inflow` through in equal shares; pressures hold at the others (default "roots")
+---@field terminal_flow? number # what each terminal takes, in place of pressure_out; left out: pressures hold, length³/s
+---@field exponent? number # of Murray's law, for its residual (default 3)
+
+---Solve Poiseuille's law for the flow in every edge (then read as `net.flow`, joins' by net:joins()) and the pressure at every node (`net.pressure`), and say what can be said of them. Pressures are in Pa, lengths L in the network's unit, flows in L³/s (mm³/s for mm), shear stresses in Pa. Pressures hold at roots and terminals unless a flow is given. With `solve = false` the flows and pressures that the network has, from a file or from growth, are checked instead: each of `conservation`, `drop` (Poiseuille's, along edges) and `terminal` (pressures against pressure_out) is the largest relative error and the node or join where it is. print(report) is one line of it.
+---@param options? venule.flow.Options
+---@return venule.FlowReport
+function Network:flow(options) end
+
+---Diameter, length and flow of segments by bifurcation level, from level 0 at the root: a list; in it also statistics of the daughters' symmetry (thinnest radius by thickest), of length by diameter, and of the angle between two daughters. A segment runs from fork to fork. Joins are nobody's children.
+---@return venule.Levels
+function Network:levels() end
+
 ---Multiply all coordinates and radii.
 ---@param factor number
 function Network:scale(factor) end
 
----Write the network as JSON.
+---The network in voxels: `net:voxels {resolution = 0.5, content = "radius"}:save "radius.nii.gz"`. See venule.voxels.
+---@param options? venule.voxels.Options
+---@return venule.Volume
+function Network:voxels(options) end
+
+---Write the network by the extension: .json, .xml, .gxl, .vtp, .swc, .csv, .txt (docs/formats.md).
 ---@param path string
 function Network:save(path) end
 
@@ -765,19 +905,21 @@ local Canvas = {}
 ---@field stroke? string # colour of the outline, or "none" (default "none")
 ---@field line_width? number # width of the outline; 0: one pixel, length (default 0)
 
----Fill a domain, or today's shape of a growth.
+---Fill a domain, or today's shape of a growth; through a camera also the surface of a mesh, a ball or a box.
 ---@param domain venule.Domain|venule.Growth
 ---@param options? venule.fill.Options
 function Canvas:fill(domain, options) end
 
 ---@class (exact) venule.stroke.Options
 ---@field color? string # colour of the veins (default "#2f4f2a")
+---@field color_by? any # what each edge's colour tells, instead of `color`: a column of the network (radius and flow by their logarithm), or one number or colour a node; numbers have their colour in `ramp`
+---@field ramp? string # colours between spaces, from that of the least number to that of the greatest (default "#3b5ba5 #5fa8a0 #e3c565 #d9733c #a4262c")
 ---@field opacity? number # 0 is invisible, 1 hides what is behind; veins that cross do not darken each other (default 1)
 ---@field width? any # width of the edges; "radius", the default, is twice each edge's radius, length
 ---@field min_width? number # no edge is drawn thinner than this, so that the finest veins do not vanish, pixels (default 0.3)
 ---@field hide_below? number # edges thinner than this are left out, so that a large network makes a small file; 0: none is, pixels (default 0)
 
----Draw a network with round ends, tapered where radii differ. `width` is "radius" (the default), a number, or a function of the node.
+---Draw a network with round ends, tapered where radii differ. `width` is "radius" (the default), a number, or a function of the node. Through a camera veins are tubes, painted from far to near together with the networks and dots that are drawn right before and after.
 ---@param network venule.Network
 ---@param options? venule.stroke.Options
 function Canvas:stroke(network, options) end
@@ -787,10 +929,21 @@ function Canvas:stroke(network, options) end
 ---@field opacity? number # 0 is invisible, 1 hides what is behind; dots that overlap do not darken each other (default 1)
 ---@field radius? number # of each dot; 0: two pixels, length (default 0)
 
----A dot at each attractor, or at each point {x, y} of a list.
+---A dot at each attractor, or at each point {x, y} of a list. Through a camera, dots with a radius are balls.
 ---@param points venule.Attractors|number[][]
 ---@param options? venule.dots.Options
 function Canvas:dots(points, options) end
+
+---@class (exact) venule.line.Options
+---@field color? string # colour of the line, or "none" (default "#222222")
+---@field opacity? number # 0 is invisible, 1 hides what is behind (default 1)
+---@field width? number # of the line, pixels (default 1)
+---@field fill? string # colour of the inside of a line that is then closed, or "none" (default "none")
+
+---A line through the points {x, y} of a list. With a `fill` it is closed.
+---@param points number[][]
+---@param options? venule.line.Options
+function Canvas:line(points, options) end
 
 ---@class (exact) venule.text.Options
 ---@field at? number[] # where the line of text stands, in the view's coordinates, length
@@ -798,15 +951,46 @@ function Canvas:dots(points, options) end
 ---@field size? number # height of the letters, pixels (default 14)
 ---@field opacity? number # 0 is invisible, 1 hides what is behind (default 1)
 ---@field anchor? "start"|"middle"|"end" # which part of the text is at `at` (default "start")
+---@field angle? number # by which the line is turned, counterclockwise, degrees (default 0)
 
 ---Write one line of text.
 ---@param text string
 ---@param options venule.text.Options
 function Canvas:text(text, options) end
 
----Write the picture: .png, .svg or .pdf by the path's extension.
+---Write the picture: .png, .svg, .pdf or .eps by the path's extension.
 ---@param path string
 function Canvas:save(path) end
+
+---Voxels of networks: masks, labels, radii. `volume:close()` gives a large one's memory back at once.
+---@class venule.Volume
+---@field size integer[] # voxels in x, y and z; 1 in z when flat
+---@field resolution number # side of a voxel
+---@field type string # "u8", "u16", "u32" or "f32"
+---@field unit string # of the resolution
+local Volume = {}
+
+---What a voxel says; they are counted from 1. A flat volume needs no `k`.
+---@param i integer
+---@param j integer
+---@param k? integer
+---@return number
+function Volume:at(i, j, k) end
+
+---Where the middle of a voxel is: x, y, z.
+---@param i integer
+---@param j integer
+---@param k? integer
+---@return number, number, number
+function Volume:position(i, j, k) end
+
+---How many voxels are not 0.
+---@return integer
+function Volume:count() end
+
+---Write the volume: .nii, .nii.gz, .nrrd, .vol (masks and centre lines) or, of a 2D network, .pgm, by the path's extension.
+---@param path string
+function Volume:save(path) end
 
 ---Random numbers that depend on nothing but their seed: `venule.rng(7)`.
 ---@class venule.Rng

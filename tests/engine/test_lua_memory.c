@@ -220,7 +220,7 @@ static int make_folder(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    static const char *const names[] = {"leaf.json", "leaf.svg", "leaf.png",    "leaf.pdf", "both.json",
+    static const char *const names[] = {"leaf.json", "leaf.svg",  "leaf.png",    "leaf.pdf", "both.json",
                                         "page.svg",  "space.svg", "leaf.nii.gz", "leaf.nrrd"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[64];
