@@ -223,13 +223,17 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
     return false;
 }
 
-bool vn_bifurcation_least(const vn_tree *tree, int32_t node, const vn_triangle *t, double tolerance,
-                          int rounds, double x[2], vn_effect *effect) {
+// Estimates are linear from where the flow is this many times that of the terminal.
+static const double LINEAR_FROM = 24;
+
+bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                          double tolerance, int rounds, double x[2], vn_effect *effect) {
     double size = t->distal + t->across[1];
     for (int i = 0;; i++) {
         vn_branch branches[3];
         vn_triangle_branches(t, x, branches);
-        *effect = vn_tree_effect(tree, node, &branches[0]);
+        *effect = adjoints != NULL ? vn_tree_estimate(tree, adjoints, node, &branches[0], LINEAR_FROM)
+                                   : vn_tree_effect(tree, node, &branches[0]);
         if (i == rounds) {
             return true;
         }

@@ -34,9 +34,10 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
 
 /// The whole: the point of least tree volume. @p node is the distal end of the old segment. Each round finds
 /// the minimum for the weights at the last point, until it moves less than @p tolerance of the size, or
-/// @p rounds are done. @p x is where to start and what was found; @p effect is that at the point.
-bool vn_bifurcation_least(const vn_tree *tree, int32_t node, const vn_triangle *t, double tolerance,
-                          int rounds, double x[2], vn_effect *effect);
+/// @p rounds are done. @p x is where to start and what was found; @p effect is that at the point. With
+/// @p adjoints (NULL: exactly) what happens far up the tree is estimated.
+bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                          double tolerance, int rounds, double x[2], vn_effect *effect);
 
 /// Equations 8 to 13 of the paper, after Kamiya and Togawa: rounds of radii from the whole tree, pressure
 /// drops (9), the system (12), the weighted mean (13); until the tree's volume stands still to @p tolerance,

@@ -139,6 +139,7 @@ static void free_grower(vn_grower *g) {
     vn_tube_grid_free(&g->thick_grid);
     vn_darts_free(&g->darts);
     vn_array_free(&g->nearest);
+    vn_adjoints_free(&g->adjoints);
     vn_array_free(&g->candidates);
     vn_array_free(&g->path);
     vn_array_free(&g->crowded);

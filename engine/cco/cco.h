@@ -24,7 +24,7 @@ typedef struct vn_candidate {
     int32_t node; ///< whose segment
     double x[2];  ///< the bifurcation, in the triangle's plane
     vn_effect effect;
-    bool settled; ///< x is the point of least volume to the last digit
+    bool refined; ///< x is the point of least volume to the last digit
     vn_triangle triangle;
 } vn_candidate;
 
@@ -61,6 +61,7 @@ typedef struct vn_grower {
     int32_t stage_start; ///< terminals when the stage began
     int32_t draws;       ///< random terminals so far, those drawn anew included
     VN_ARRAY(vn_near) nearest;
+    vn_adjoints adjoints;
     VN_ARRAY(vn_candidate) candidates;
     VN_ARRAY(vn_step) path; ///< working memory of rules.c
     VN_ARRAY(vn_thickness) crowded;

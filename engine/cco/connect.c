@@ -9,6 +9,8 @@
 // The bifurcation point is known to this part of the triangle when candidates are compared, and to the last
 // digit in the one that is taken: the volume is flat about its minimum.
 static const double ROUGH = 1e-4, FINE = 1e-10;
+// Estimates are within this part of the truth.
+static const double DOUBT = 0.05;
 enum { ROUGH_ROUNDS = 1, FINE_ROUNDS = 40, KAMIYA_ROUNDS = 500 };
 
 static double inflate_after(const vn_cco *cco, const vn_grower *g) {
@@ -33,24 +35,34 @@ static void start_near_foot(const vn_triangle *t, double x[2]) {
     x[1] = 0.15 * t->across[1];
 }
 
-static bool find_point(const vn_cco *cco, const vn_grower *g, vn_candidate *c, double tolerance, int rounds) {
-    if (cco->def.bifurcation == VN_BIFURCATE_LEAST) {
-        return vn_bifurcation_least(&g->tree, c->node, &c->triangle, tolerance, rounds, c->x, &c->effect);
-    }
+static bool find_by_kamiya(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
     vn_kamiya_fn *solve = cco->def.bifurcation == VN_BIFURCATE_CERES ? vn_ceres_radii : vn_kamiya_radii;
     return vn_bifurcation_kamiya(&g->tree, c->node, &c->triangle, solve, 1e-12, KAMIYA_ROUNDS, c->x,
                                  &c->effect);
 }
 
+static bool find_roughly(const vn_cco *cco, vn_grower *g, vn_candidate *c) {
+    if (cco->def.bifurcation != VN_BIFURCATE_LEAST) {
+        return find_by_kamiya(cco, g, c);
+    }
+    start_near_foot(&c->triangle, c->x);
+    return vn_bifurcation_least(&g->tree, &g->adjoints, c->node, &c->triangle, ROUGH, ROUGH_ROUNDS, c->x,
+                                &c->effect);
+}
+
+// To the last digit. What collapses only now is of no use: its volume is set beyond all others'.
+static void refine(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
+    if (!c->refined && cco->def.bifurcation == VN_BIFURCATE_LEAST &&
+        !vn_bifurcation_least(&g->tree, NULL, c->node, &c->triangle, FINE, FINE_ROUNDS, c->x, &c->effect)) {
+        c->effect.volume = INFINITY;
+    }
+    c->refined = true;
+}
+
 static vn_status consider(vn_cco *cco, vn_grower *g, int32_t node, const double terminal[3], double flow) {
     vn_candidate c = {.node = node};
     g->report.tried++;
-    bool found = make_triangle(g, node, terminal, flow, &c.triangle);
-    if (found) {
-        start_near_foot(&c.triangle, c.x);
-        found = find_point(cco, g, &c, ROUGH, ROUGH_ROUNDS);
-    }
-    if (!found) {
+    if (!make_triangle(g, node, terminal, flow, &c.triangle) || !find_roughly(cco, g, &c)) {
         g->report.collapsed++;
         return VN_OK;
     }
@@ -184,27 +196,46 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
     return grow_first(g, &plan, flow);
 }
 
+// In the order of their volumes: exactly among those that may be best, by the estimates among the rest.
+static void sort_candidates(const vn_cco *cco, vn_grower *g) {
+    vn_candidate *c = g->candidates.data;
+    int32_t count = g->candidates.count, few = 0;
+    if (count == 0) {
+        return;
+    }
+    qsort(c, (size_t)count, sizeof *c, by_volume);
+    double limit = c[0].effect.volume + DOUBT * fabs(c[0].effect.volume);
+    while (few < count && c[few].effect.volume <= limit) {
+        refine(cco, g, &c[few++]);
+    }
+    qsort(c, (size_t)few, sizeof *c, by_volume);
+}
+
+static vn_status try_candidate(vn_cco *cco, vn_grower *g, vn_candidate *c, const double terminal[3],
+                               double flow, bool *done) {
+    vn_plan plan;
+    vn_verdict verdict = VN_SHORT;
+    refine(cco, g, c);
+    if (c->effect.volume < INFINITY) {
+        make_plan(cco, g, c, terminal, &plan);
+        VN_TRY(judge_once(cco, g, &plan, &verdict));
+    }
+    if (verdict != VN_ALLOWED) {
+        count_refusal(g, verdict);
+        return VN_OK;
+    }
+    *done = true;
+    return grow_fork(g, &plan, flow);
+}
+
 // The best of the candidates that keeps the rules, if any: at first with room to thicken.
 static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
-    if (g->candidates.count > 1) {
-        qsort(g->candidates.data, (size_t)g->candidates.count, sizeof *g->candidates.data, by_volume);
-    }
-    int32_t rounds = cco->patient || cco->def.foresight == 0 ? 1 : 2;
-    for (int32_t i = 0; i < rounds * g->candidates.count && !*done; i++) {
-        cco->provident = i < g->candidates.count && cco->def.foresight > 0;
-        vn_candidate *c = &g->candidates.data[i % g->candidates.count];
-        vn_plan plan;
-        vn_verdict verdict = VN_SHORT;
-        if (find_point(cco, g, c, FINE, FINE_ROUNDS)) {
-            make_plan(cco, g, c, terminal, &plan);
-            VN_TRY(judge_once(cco, g, &plan, &verdict));
-        }
-        if (verdict != VN_ALLOWED) {
-            count_refusal(g, verdict);
-            continue;
-        }
-        VN_TRY(grow_fork(g, &plan, flow));
-        *done = true;
+    bool provident = cco->def.foresight > 0;
+    int32_t count = g->candidates.count, tries = cco->patient || !provident ? count : 2 * count;
+    sort_candidates(cco, g);
+    for (int32_t i = 0; i < tries && !*done; i++) {
+        cco->provident = provident && i < count;
+        VN_TRY(try_candidate(cco, g, &g->candidates.data[i % count], terminal, flow, done));
     }
     return VN_OK;
 }
@@ -232,6 +263,7 @@ static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3
 vn_status vn_connect(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
     *done = false;
     VN_TRY(vn_places_update(cco, g));
+    VN_TRY(vn_adjoints_begin(&g->adjoints));
     if (g->tree.vessels.count == 1) {
         return connect_first(cco, g, 0, terminal, flow, done);
     }

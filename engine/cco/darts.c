@@ -79,6 +79,7 @@ static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
     vn_dart_bin *bin = bin_of(darts, class, b->level);
     VN_TRY(vn_array_push(&bin->cells, cell));
     c->link = bin->cells.count - 1;
+    darts->top = class < darts->top ? class : darts->top;
     account(darts, class, c, b->side, 1);
     return VN_OK;
 }
@@ -415,27 +416,56 @@ vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *
     return vn_fail(VN_INFEASIBLE, "there is no room left between the vessels");
 }
 
-/// Segments that were added.
+/// Segments that were added, and the box about them.
 typedef struct news {
     const double (*ends)[2][3];
     int32_t count;
     double moved;
+    double low[3], high[3];
 } news;
 
+static void enclose(news *n) {
+    for (int k = 0; k < 3; k++) {
+        n->low[k] = INFINITY;
+        n->high[k] = -INFINITY;
+        for (int32_t i = 0; i < 2 * n->count; i++) {
+            n->low[k] = fmin(n->low[k], n->ends[i / 2][i % 2][k]);
+            n->high[k] = fmax(n->high[k], n->ends[i / 2][i % 2][k]);
+        }
+    }
+}
+
+// At least this far from all of them.
+static double from_box(const news *n, const double p[3]) {
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        double under = n->low[k] - p[k], over = p[k] - n->high[k];
+        double away = under > over ? under : over;
+        square += away > 0 ? away * away : 0;
+    }
+    return sqrt(square);
+}
+
+static double from_segments(const news *n, const double p[3]) {
+    double nearest = INFINITY;
+    for (int32_t i = 0; i < n->count; i++) {
+        double square = vn_point_segment_distance2(p, n->ends[i][0], n->ends[i][1]);
+        nearest = square < nearest ? square : nearest;
+    }
+    return sqrt(nearest);
+}
+
+// Where another vessel is nearer to all of a cell, nothing changes there.
 static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news *n) {
     vn_dart_cell *c = &darts->cells.data[cell];
-    double middle[3], half = half_diagonal(darts, b->side), nearest = INFINITY;
+    double middle[3], half = half_diagonal(darts, b->side), limit = c->bound + half + n->moved;
     middle_of(darts, b, middle);
-    for (int32_t i = 0; i < n->count; i++) {
-        double square = vn_point_segment_distance2(middle, n->ends[i][0], n->ends[i][1]);
-        nearest = fmin(nearest, square);
-    }
-    nearest = sqrt(nearest);
-    if (nearest - half - n->moved > c->bound) {
-        return VN_OK; // another vessel is nearer to all of it
+    if (from_box(n, middle) > limit) {
+        return VN_OK;
     }
     if (c->link >= -1) {
-        return set_bound(darts, cell, b, fmin(c->bound + n->moved, nearest + half));
+        double nearest = from_segments(n, middle);
+        return nearest > limit ? VN_OK : set_bound(darts, cell, b, fmin(c->bound + n->moved, nearest + half));
     }
     float bound = 0;
     int32_t first = ~c->link;
@@ -449,7 +479,8 @@ static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news 
 }
 
 vn_status vn_darts_tell(vn_darts *darts, const double (*ends)[2][3], int32_t count, double moved) {
-    news n = {ends, count, moved};
+    news n = {.ends = ends, .count = count, .moved = moved};
     box b = outermost(darts);
+    enclose(&n);
     return darts->cells.count > 0 ? spread(darts, 0, &b, &n) : VN_OK;
 }

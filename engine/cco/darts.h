@@ -36,6 +36,7 @@ typedef struct vn_darts {
     double mean;         ///< density
     VN_ARRAY(vn_dart_cell) cells;
     vn_dart_bin *bins;            ///< by class of bound, then level
+    int top;                      ///< no class before it has any
     double mass[VN_DART_CLASSES]; ///< of each class's leaves
     double volume[VN_DART_CLASSES];
 } vn_darts;

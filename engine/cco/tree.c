@@ -74,7 +74,7 @@ typedef struct chain {
 } chain;
 
 // One step of the chain rule, over the fork that `b` is one branch of.
-static void climb(chain *c, const vn_branch *b, const vn_fork *fork, double exponent) {
+static void follow(chain *c, const vn_branch *b, const vn_fork *fork, double exponent) {
     double product = b->flow * b->resistance;
     double share = vn_branch_weight(exponent, product) / fork->sum;
     double beta2 = sqrt(product) / fork->square;
@@ -85,26 +85,124 @@ static void climb(chain *c, const vn_branch *b, const vn_fork *fork, double expo
     c->square *= beta2;
 }
 
-vn_effect vn_tree_effect(const vn_tree *tree, int32_t node, const vn_branch *branch) {
+/// A branch on its way up: it hangs where the segment of `node` does.
+typedef struct climber {
+    int32_t node;
+    vn_branch branch;
+    chain chain;
+} climber;
+
+static void climb_one(const vn_tree *tree, climber *c) {
     const vn_vessel *v = tree->vessels.data;
-    vn_branch b = *branch;
-    chain c = {1, 0, 1, 1};
-    while (!vn_is_stem(tree, node)) {
-        int32_t parent = v[node].parent;
-        vn_fork fork = vn_tree_fork(tree, parent, node, &b);
-        climb(&c, &b, &fork, vn_tree_exponent(tree, fork.flow));
-        b = (vn_branch){fork.flow, v[parent].length + fork.resistance, v[parent].length + fork.volume};
-        node = parent;
+    int32_t parent = v[c->node].parent;
+    vn_fork fork = vn_tree_fork(tree, parent, c->node, &c->branch);
+    follow(&c->chain, &c->branch, &fork, vn_tree_exponent(tree, fork.flow));
+    c->branch = (vn_branch){fork.flow, v[parent].length + fork.resistance, v[parent].length + fork.volume};
+    c->node = parent;
+}
+
+vn_effect vn_tree_effect(const vn_tree *tree, int32_t node, const vn_branch *branch) {
+    climber c = {node, *branch, {1, 0, 1, 1}};
+    while (!vn_is_stem(tree, c.node)) {
+        climb_one(tree, &c);
     }
+    vn_branch b = c.branch, before = branch_of(&tree->vessels.data[c.node]);
     double square = stem_square(tree, b.flow, b.resistance);
-    vn_branch before = branch_of(&v[node]);
     return (vn_effect){
         .volume = PI * square * b.volume - stem_volume(tree, &before),
-        .radius = sqrt(square * c.square),
+        .radius = sqrt(square * c.chain.square),
         .by_resistance =
             PI * square *
-            (b.volume / (2 * b.resistance) * c.resistance_by_resistance + c.volume_by_resistance),
-        .by_volume = PI * square * c.volume_by_volume,
+            (b.volume / (2 * b.resistance) * c.chain.resistance_by_resistance + c.chain.volume_by_resistance),
+        .by_volume = PI * square * c.chain.volume_by_volume,
+    };
+}
+
+// ---- To first order ----
+
+enum { ADJOINTS = 1 << 12 };
+
+void vn_adjoints_free(vn_adjoints *adjoints) {
+    vn_array_free(&adjoints->known);
+}
+
+vn_status vn_adjoints_begin(vn_adjoints *adjoints) {
+    if (adjoints->known.count == 0) {
+        VN_TRY(vn_array_zero(&adjoints->known, ADJOINTS));
+    }
+    adjoints->round++;
+    return VN_OK;
+}
+
+static vn_adjoint *slot_of(const vn_adjoints *adjoints, int32_t node) {
+    return &adjoints->known.data[((uint32_t)node * 2654435761u) >> 20];
+}
+
+static vn_adjoint of_stem(const vn_tree *tree, int32_t node) {
+    vn_branch b = branch_of(&tree->vessels.data[node]);
+    double volume = stem_volume(tree, &b);
+    return (vn_adjoint){.node = node,
+                        .by_resistance = volume / (2 * b.resistance),
+                        .by_volume = volume / b.volume,
+                        .by_flow = volume / (2 * b.flow)};
+}
+
+// Of a branch, from that of the segment that it hangs from.
+static vn_adjoint of_branch(const vn_tree *tree, int32_t node, const vn_adjoint *above) {
+    vn_branch b = branch_of(&tree->vessels.data[node]);
+    vn_fork fork = vn_tree_fork(tree, above->node, -1, NULL);
+    chain c = {1, 0, 1, 1};
+    follow(&c, &b, &fork, vn_tree_exponent(tree, fork.flow));
+    double through =
+        above->by_resistance * c.resistance_by_resistance + above->by_volume * c.volume_by_resistance;
+    // Resistances and flows enter by their products, but for the fork's own flow, H^4 / Q.
+    return (vn_adjoint){.node = node,
+                        .by_resistance = through,
+                        .by_volume = above->by_volume * c.volume_by_volume,
+                        .by_flow = through * b.resistance / b.flow + above->by_flow -
+                                   above->by_resistance * fork.resistance / fork.flow};
+}
+
+static vn_adjoint adjoint_of(const vn_tree *tree, vn_adjoints *adjoints, int32_t node) {
+    enum { AT_ONCE = 64 };
+    int32_t way[AT_ONCE];
+    int count = 0;
+    vn_adjoint at = {.node = -1};
+    for (int32_t n = node; at.node < 0; n = tree->vessels.data[n].parent) {
+        const vn_adjoint *known = slot_of(adjoints, n);
+        if (known->round == adjoints->round && known->node == n) {
+            at = *known;
+        } else if (vn_is_stem(tree, n)) {
+            at = of_stem(tree, n);
+        } else if (count == AT_ONCE) { // a very long way is worked out in parts
+            at = adjoint_of(tree, adjoints, n);
+        } else {
+            way[count++] = n;
+        }
+    }
+    while (count > 0) {
+        at = of_branch(tree, way[--count], &at);
+        at.round = adjoints->round;
+        *slot_of(adjoints, at.node) = at;
+    }
+    return at;
+}
+
+vn_effect vn_tree_estimate(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_branch *branch,
+                           double ratio) {
+    double added = branch->flow - tree->vessels.data[node].flow;
+    climber c = {node, *branch, {1, 0, 1, 1}};
+    while (!vn_is_stem(tree, c.node) && c.branch.flow < ratio * added) {
+        climb_one(tree, &c);
+    }
+    vn_adjoint a = adjoint_of(tree, adjoints, c.node);
+    vn_branch before = branch_of(&tree->vessels.data[c.node]);
+    return (vn_effect){
+        .volume = a.by_resistance * (c.branch.resistance - before.resistance) +
+                  a.by_volume * (c.branch.volume - before.volume) + a.by_flow * added,
+        .by_resistance =
+            a.by_resistance * c.chain.resistance_by_resistance + a.by_volume * c.chain.volume_by_resistance,
+        .by_volume = a.by_volume * c.chain.volume_by_volume,
     };
 }
 

@@ -79,6 +79,27 @@ static inline bool vn_is_stem(const vn_tree *tree, int32_t node) {
 /// The effect of @p branch hanging where the segment of @p node hangs now (its upper end stays).
 vn_effect vn_tree_effect(const vn_tree *tree, int32_t node, const vn_branch *branch);
 
+/// How fast the volume of the whole tree rises with resistance, volume and flow of a node's branch as it is.
+typedef struct vn_adjoint {
+    int32_t node;
+    uint32_t round; ///< in which this was worked out
+    double by_resistance, by_volume, by_flow;
+} vn_adjoint;
+
+/// What was asked for since the tree last changed: candidates near one another share most of their ways up.
+typedef struct vn_adjoints {
+    VN_ARRAY(vn_adjoint) known; ///< hashed by node; a newer one takes the place of an older one
+    uint32_t round;
+} vn_adjoints;
+void vn_adjoints_free(vn_adjoints *adjoints);
+/// Forget everything: the tree has changed.
+vn_status vn_adjoints_begin(vn_adjoints *adjoints);
+
+/// Nearly vn_tree_effect(), in time that does not depend on the depth: once the flow is @p ratio times the
+/// flow that is added, what happens further up is taken as linear. The radius is left out.
+vn_effect vn_tree_estimate(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_branch *branch,
+                           double ratio);
+
 /// Volume of the whole tree: the sum of pi r^2 l.
 double vn_tree_volume(const vn_tree *tree);
 /// Radius of a node's segment, by way of the root. At a root, that of its thickest segment.

@@ -97,7 +97,7 @@ static double connect(vn_tree *tree, int32_t node, const double terminal[3], dou
     assert_true(vn_triangle_make(&t, v[v[node].parent].p, v[node].p, terminal));
     double at[2] = {t.distal / 2, t.across[1] / 4};
     vn_effect effect;
-    assert_true(vn_bifurcation_least(tree, node, &t, 1e-12, 50, at, &effect));
+    assert_true(vn_bifurcation_least(tree, NULL, node, &t, 1e-12, 50, at, &effect));
     vn_triangle_point(&t, at, x);
     int32_t middle;
     assert_ok(vn_tree_split(tree, node, x, &middle));
@@ -370,7 +370,7 @@ static void the_point_is_of_least_volume(void **state) {
         vn_triangle t = triangle_at(&tree, node, terminal);
         double at[2] = {t.distal / 2, t.across[1] / 8};
         vn_effect e;
-        bool inner = vn_bifurcation_least(&tree, node, &t, 1e-10, 30, at, &e);
+        bool inner = vn_bifurcation_least(&tree, NULL, node, &t, 1e-10, 30, at, &e);
         found += inner;
         double least = INFINITY, best[2] = {0, 0};
         double size = t.distal + t.across[1];
