@@ -40,7 +40,7 @@ static const vn_field cco_fields[] = {
     {"foresight", VN_F64, VN_OPTIONAL, offsetof(vn_cco_def, foresight), 0, 100, "", NULL,
      "room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + "
      "foresight / √m "
-     "times its share of the flow; left out: 2, and 0 for a list of terminals"},
+     "times its share of the flow; left out: 4, and 0 for a list of terminals"},
     {"bifurcation", VN_CHOICE, 0, offsetof(vn_cco_def, bifurcation), 0, 0, "", "least|kamiya|ceres",
      "the bifurcation point: of least volume; by Equations 8 to 13 alone; or these with the system (12) "
      "solved by Ceres"},
@@ -121,7 +121,7 @@ vn_status vn_cco_create(vn_cco **out, const vn_cco_def *def) {
     }
     cco->def = *def;
     cco->def.terminals = def->list != NULL ? def->list_count : def->terminals;
-    cco->def.foresight = def->foresight >= 0 ? def->foresight : def->list != NULL ? 0 : 2;
+    cco->def.foresight = def->foresight >= 0 ? def->foresight : def->list != NULL ? 0 : 4;
     cco->def.tries = def->tries > 0 ? def->tries : def->placement == VN_PLACE_TERMINALS ? 1000 : 100;
     cco->def.domain = vn_domain_retain(def->domain);
     cco->part = vn_domain_retain(def->domain);
@@ -334,7 +334,9 @@ static vn_status start_darts(vn_cco *cco, vn_grower *g, int32_t tree) {
     }
     vn_rng rng = {.seed = (uint64_t)cco->def.seed,
                   .stream = vn_hash(2, (uint64_t)tree, (uint64_t)g->draws, 0)};
-    return vn_darts_init(&g->darts, cco->dim, cco->part, cco->def.density, cco->def.density_payload, &rng);
+    double last = cco->def.spacing * pow(vn_domain_measure(cco->part) / g->wanted, 1.0 / cco->dim);
+    return vn_darts_init(&g->darts, cco->dim, cco->part, 0.05 * last, cco->def.density,
+                         cco->def.density_payload, &rng);
 }
 
 static vn_status fill_tree(vn_cco *cco, vn_grower *g, const vn_cco_tree_def *def, int32_t tree) {
@@ -556,7 +558,20 @@ static vn_status fail_full(const vn_grower *g, int32_t tries) {
         (long long)r->crossing, (long long)r->crowding);
 }
 
-static vn_status add_random(vn_cco *cco, vn_grower *g, int32_t tree) {
+// A small tree that stands in its own way is not worth keeping.
+static vn_status begin_anew(vn_cco *cco, vn_grower *g, int32_t tree) {
+    vn_vessel *root = vn_vessel_of(g, 0);
+    root->first_child = -1;
+    root->flow = root->resistance = root->volume = 0;
+    g->tree.vessels.count = 1;
+    g->terminals = 0;
+    g->grid_count = 0;
+    g->report.begun_anew++;
+    VN_TRY(vn_places_update(cco, g));
+    return start_darts(cco, g, tree);
+}
+
+static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
     for (int32_t i = 0; i <= cco->def.redraws; i++) {
         double p[3], flow;
         bool done;
@@ -571,6 +586,16 @@ static vn_status add_random(vn_cco *cco, vn_grower *g, int32_t tree) {
         VN_TRY(vn_poll());
     }
     return fail_full(g, cco->def.redraws + 1);
+}
+
+static vn_status add_random(vn_cco *cco, vn_grower *g, int32_t tree) {
+    enum { MOST_BEGINNINGS = 8 };
+    vn_status status = try_random(cco, g, tree);
+    bool early = g->first_born == 2 && g->stage_start == 0 && g->terminals < g->wanted / 4;
+    if (status != VN_INFEASIBLE || !early || g->report.begun_anew == MOST_BEGINNINGS) {
+        return status;
+    }
+    return begin_anew(cco, g, tree);
 }
 
 static vn_status add_listed(vn_cco *cco, vn_grower *g) {
@@ -590,22 +615,48 @@ static vn_status add_listed(vn_cco *cco, vn_grower *g) {
     return VN_OK;
 }
 
+// Terminals of the one that has least, of those that are not done.
+static int32_t smallest_tree(const vn_cco *cco) {
+    int32_t least = INT32_MAX;
+    for (int32_t i = 0; i < vn_cco_tree_count(cco); i++) {
+        const vn_grower *g = vn_cco_tree_at(cco, i);
+        least = g->terminals < g->wanted && g->terminals < least ? g->terminals : least;
+    }
+    return least;
+}
+
+static int32_t count_terminals(const vn_cco *cco) {
+    int32_t count = 0;
+    for (int32_t i = 0; i < vn_cco_tree_count(cco); i++) {
+        count += vn_cco_tree_at(cco, i)->terminals;
+    }
+    return count;
+}
+
+// One terminal for each tree that has fewer than @p goal.
+static vn_status take_turns(vn_cco *cco, int64_t goal) {
+    for (int32_t tree = 0; tree < vn_cco_tree_count(cco); tree++) {
+        vn_grower *g = vn_cco_tree_at(cco, tree);
+        if (g->terminals < g->wanted && g->terminals < goal) {
+            VN_TRY(cco->def.list != NULL ? add_listed(cco, g) : add_random(cco, g, tree));
+        }
+    }
+    return vn_poll();
+}
+
 vn_status vn_cco_grow(vn_cco *cco, int32_t count, int32_t *added) {
     *added = 0;
     if (vn_cco_tree_count(cco) == 0) {
         return vn_fail(VN_INVALID, "cco: there is no tree to grow; add one with a root");
     }
-    for (int32_t i = 0; i < count && !vn_cco_done(cco); i++) {
-        for (int32_t tree = 0; tree < vn_cco_tree_count(cco); tree++) {
-            vn_grower *g = vn_cco_tree_at(cco, tree);
-            if (g->terminals < g->wanted) {
-                VN_TRY(cco->def.list != NULL ? add_listed(cco, g) : add_random(cco, g, tree));
-                ++*added;
-            }
-        }
-        VN_TRY(vn_poll());
+    int32_t before = count_terminals(cco);
+    int64_t goal = (int64_t)smallest_tree(cco) + count; // a tree that begins anew catches up
+    vn_status status = VN_OK;
+    while (status == VN_OK && !vn_cco_done(cco) && smallest_tree(cco) < goal) {
+        status = take_turns(cco, goal);
     }
-    return VN_OK;
+    *added = count_terminals(cco) - before;
+    return status;
 }
 
 vn_cco_report vn_cco_report_of(const vn_cco *cco, int32_t tree) {

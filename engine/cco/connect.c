@@ -142,8 +142,14 @@ static vn_status insert_all(vn_grower *g, const int32_t *nodes, const double *ca
     return VN_OK;
 }
 
+// Long vessels are cut again and again, and hardly bend: it is told only when it has come to something.
 static vn_status tell_darts(vn_grower *g, const int32_t *nodes, int count, double moved) {
     double ends[3][2][3];
+    if (moved <= g->darts.tolerance) {
+        nodes += count - 1;
+        count = 1;
+        moved = 0;
+    }
     for (int i = 0; i < count; i++) {
         const vn_vessel *v = vn_vessel_of(g, nodes[i]);
         memcpy(ends[i][0], vn_vessel_of(g, v->parent)->p, sizeof ends[i][0]);
@@ -166,7 +172,8 @@ static vn_status grow_fork(vn_grower *g, const vn_plan *plan, double flow) {
     int32_t middle, leaf;
     VN_TRY(vn_array_reserve(&g->tree.vessels, (int64_t)g->tree.vessels.count + 2));
     const double *start = vn_vessel_of(g, plan->upper)->p, *end = vn_vessel_of(g, plan->node)->p;
-    double moved = sqrt(vn_point_segment_distance2(plan->x, start, end));
+    double moved = sqrt(vn_point_segment_distance2(plan->x, start, end)) + vn_vessel_of(g, plan->node)->bent;
+    float bent = moved <= g->darts.tolerance ? (float)moved : 0;
     vn_places_remove(g, plan->node);
     VN_TRY(vn_tree_split(&g->tree, plan->node, plan->x, &middle));
     VN_TRY(vn_tree_push(&g->tree, middle, plan->terminal, &leaf));
@@ -174,6 +181,7 @@ static vn_status grow_fork(vn_grower *g, const vn_plan *plan, double flow) {
     vn_tree_refresh(&g->tree, plan->node);
     vn_tree_update(&g->tree, leaf);
     g->terminals++;
+    vn_vessel_of(g, middle)->bent = vn_vessel_of(g, plan->node)->bent = bent;
     int32_t nodes[3] = {middle, plan->node, leaf};
     VN_TRY(insert_all(g, nodes, plan->caps, 3));
     return tell_darts(g, nodes, 3, moved);

@@ -78,6 +78,7 @@ static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
     int class = class_of(darts, c->bound);
     vn_dart_bin *bin = bin_of(darts, class, b->level);
     VN_TRY(vn_array_push(&bin->cells, cell));
+    darts->levels[class] |= 1u << b->level;
     c->link = bin->cells.count - 1;
     darts->top = class < darts->top ? class : darts->top;
     account(darts, class, c, b->side, 1);
@@ -93,13 +94,11 @@ static void take(vn_darts *darts, int32_t cell, const box *b) {
     darts->cells.data[last].link = c->link;
     c->link = -1;
     account(darts, class, c, b->side, -1);
-    if (bin->cells.count == 0) { // what rounding left of the sums goes when a class is empty
-        bool empty = true;
-        for (int level = 0; level < VN_DART_LEVELS && empty; level++) {
-            empty = bin_of(darts, class, level)->cells.count == 0;
-        }
-        darts->volume[class] = empty ? 0 : darts->volume[class];
-        darts->mass[class] = empty ? 0 : darts->mass[class];
+    if (bin->cells.count == 0) {
+        darts->levels[class] &= ~(1u << b->level);
+    }
+    if (darts->levels[class] == 0) { // what rounding left of the sums
+        darts->volume[class] = darts->mass[class] = 0;
     }
 }
 
@@ -184,10 +183,11 @@ static vn_status weigh_region(vn_darts *darts, vn_rng *rng) {
                : vn_fail(VN_INFEASIBLE, "cco: the density is 0 all over the region for terminals");
 }
 
-vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, vn_cco_value_fn *density,
-                        void *payload, vn_rng *rng) {
+vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, double tolerance,
+                        vn_cco_value_fn *density, void *payload, vn_rng *rng) {
     vn_darts_free(darts);
-    *darts = (vn_darts){.dim = dim, .region = region, .density = density, .payload = payload};
+    *darts = (vn_darts){
+        .dim = dim, .region = region, .tolerance = tolerance, .density = density, .payload = payload};
     size_t bytes = VN_DART_CLASSES * VN_DART_LEVELS * sizeof *darts->bins;
     darts->bins = vn_resize(NULL, 0, bytes);
     if (darts->bins == NULL) {
@@ -295,19 +295,16 @@ static leaf leaf_in(const vn_darts *darts, const vn_dart_bin *bin, int level, in
 // One of a class, by how far @p at is along the volumes of its levels.
 static leaf pick_in(const vn_darts *darts, int class, double at) {
     leaf found = {.cell = -1};
-    double side = darts->side;
-    for (int level = 0; level < VN_DART_LEVELS; level++, side /= 2) {
+    for (uint32_t levels = darts->levels[class]; levels != 0; levels &= levels - 1) {
+        int level = __builtin_ctz(levels);
         const vn_dart_bin *bin = bin_of(darts, class, level);
-        double one = cell_volume(darts, side), all = one * bin->cells.count;
-        if (bin->cells.count > 0) {
-            found = leaf_in(darts, bin, level, (int32_t)(at / one));
-        }
-        if (at < all) {
-            break;
+        double one = cell_volume(darts, darts->side / (double)(1 << level)), all = one * bin->cells.count;
+        if (at < all || (levels & (levels - 1)) == 0) { // the last, where rounding leads beyond it
+            return leaf_in(darts, bin, level, (int32_t)fmin(at / one, bin->cells.count));
         }
         at -= all;
     }
-    return found; // the last, where rounding leads beyond it
+    return found;
 }
 
 // Of the classes that reach above the threshold, a leaf at random, as likely as it is large.
@@ -455,10 +452,13 @@ static double from_segments(const news *n, const double p[3]) {
     return sqrt(nearest);
 }
 
-// Where another vessel is nearer to all of a cell, nothing changes there.
+// Where another vessel is nearer to all of a cell, nothing changes there. Bounds must rise wherever vessels
+// moved; that they could fall is told only to cells around a new one, others find out when a dart falls into
+// them.
 static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news *n) {
     vn_dart_cell *c = &darts->cells.data[cell];
-    double middle[3], half = half_diagonal(darts, b->side), limit = c->bound + half + n->moved;
+    double middle[3], half = half_diagonal(darts, b->side),
+                      limit = n->moved > 0 ? c->bound + half + n->moved : half;
     middle_of(darts, b, middle);
     if (from_box(n, middle) > limit) {
         return VN_OK;

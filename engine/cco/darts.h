@@ -34,15 +34,18 @@ typedef struct vn_darts {
     double low[3], side; ///< of the outermost cell
     double total;        ///< mass of the region: its measure, weighed
     double mean;         ///< density
+    double tolerance;    ///< that vessels may be away from where vn_darts_tell() was told
     VN_ARRAY(vn_dart_cell) cells;
-    vn_dart_bin *bins;            ///< by class of bound, then level
-    int top;                      ///< no class before it has any
-    double mass[VN_DART_CLASSES]; ///< of each class's leaves
+    vn_dart_bin *bins;                ///< by class of bound, then level
+    int top;                          ///< no class before it has any
+    uint32_t levels[VN_DART_CLASSES]; ///< which of a class's bins hold any
+    double mass[VN_DART_CLASSES];     ///< of each class's leaves
     double volume[VN_DART_CLASSES];
 } vn_darts;
 
-vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, vn_cco_value_fn *density,
-                        void *payload, vn_rng *rng);
+/// @p tolerance is small against the thresholds that are to come.
+vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, double tolerance,
+                        vn_cco_value_fn *density, void *payload, vn_rng *rng);
 void vn_darts_free(vn_darts *darts);
 
 /// What terminals keep away from, and how one is looked for.

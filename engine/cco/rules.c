@@ -29,14 +29,15 @@ typedef struct tube {
 
 // A subtree of m terminals will not keep its share of the flow: its segments are given room to thicken with
 // it, the more the fewer there are in it and the longer the tree has still to grow. Without it, now and then
-// vessels near the root stand in each other's way for good, and half of an organ stays empty.
+// vessels near the root stand in each other's way for good, and half of an organ stays empty: of 10 balls of
+// 4,000 terminals, 4 did; to let vessels be too thick for a while instead made it 7.
 static double foresight(const vn_cco *cco, const vn_grower *g, double flow) {
     if (!cco->provident || g->fixed) {
         return 1;
     }
     double ahead = log2((double)g->wanted / (g->terminals + 1));
     double most = cbrt(1 + cco->def.foresight / sqrt(fmax(flow / g->terminal_flow, 1)));
-    return 1 + (most - 1) * fmin(ahead, 1);
+    return 1 + (most - 1) * fmin(ahead / 4, 1);
 }
 
 static bool is_at(const vn_vessel *v, int32_t node, int32_t end) {

@@ -21,6 +21,7 @@ typedef struct vn_vessel {
     double resistance; ///< R / kappa
     double volume;     ///< v
     float cap;         ///< the radius up to which the segment breaks no rule; never below its radius
+    float bent;        ///< how far it is from where bounds of darts have it
     float slack;       ///< its radius up to which no segment below, itself included, passes its cap
     int32_t parent, first_child, next_child; ///< -1: none
 } vn_vessel;

@@ -43,7 +43,7 @@ typedef struct vn_cco_def {
     int32_t redraws;     ///< terminals drawn anew before the tree counts as full; default 200
     /// New vessels need room to thicken later: so that a subtree of m terminals may come to 1 + foresight /
     /// sqrt(m) times its share of the flow. Without it vessels near the root get stuck between others now and
-    /// then, and part of the organ stays empty. 0 or more: none; default -1: 2, and 0 for a list of
+    /// then, and part of the organ stays empty. 0: none is asked for; default -1: 4, and 0 for a list of
     /// terminals.
     double foresight;
     int bifurcation;        ///< 0 "least": the point of least volume; 1 "kamiya": Equations 8 to 13 alone; 2
@@ -105,6 +105,7 @@ typedef struct vn_cco_report {
     double volume;          ///< sum of pi r² l of the tree as its network has it
     double inflow;          ///< into its root
     int64_t darts;          ///< tries for terminals, those included that could be skipped as hopeless
+    int32_t begun_anew;     ///< times that a tree below a quarter of its size could not go on
     int64_t redrawn;        ///< terminals that could not be connected
     int64_t tried;          ///< candidates whose volume was computed
     int64_t collapsed;      ///< of these: the bifurcation point ran into an end
