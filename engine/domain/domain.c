@@ -71,6 +71,9 @@ void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]) 
 }
 
 double vn_domain_value(const vn_domain *domain, const double p[3]) {
+    if (domain->kind->value != NULL) {
+        return domain->kind->value(domain, p);
+    }
     return domain->kind->contains(domain, p) ? 1 : 0;
 }
 

@@ -54,6 +54,8 @@ typedef struct vn_domain_kind {
     /// The surface of what is in space, appended to an empty @p out; round ones to within a thousandth of
     /// their radius. NULL where nobody can tell.
     vn_status (*triangles)(const vn_domain *domain, vn_triangles *out);
+    /// In [0, 1]; NULL: 1 inside and 0 outside.
+    double (*value)(const vn_domain *domain, const double p[3]);
 } vn_domain_kind;
 
 /// The head of every kind's own structure.

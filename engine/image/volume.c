@@ -25,7 +25,7 @@ static vn_status check_size(const int32_t size[3], const double spacing[3]) {
 
 vn_status vn_volume_init(vn_volume *volume, vn_voxel type, const int32_t size[3], const double spacing[3],
                          const double origin[3]) {
-    *volume = (vn_volume){.type = type};
+    *volume = (vn_volume){.type = type, .threshold = 0.5};
     VN_TRY(check_size(size, spacing));
     size_t bytes = (size_t)size[0] * (size_t)size[1] * (size_t)size[2] * vn_voxel_size(type);
     volume->data = vn_resize(NULL, 0, bytes);

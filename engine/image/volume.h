@@ -17,7 +17,9 @@ typedef enum vn_voxel {
 typedef struct vn_volume {
     int32_t size[3];
     double to_world[3][4];
-    char unit[8]; ///< of the world: "mm", "um", "m", or ""
+    char unit[8];     ///< of the world: "mm", "um", "m", or ""
+    double white;     ///< the value that counts as 1; 0 where its format does not say
+    double threshold; ///< the least value inside, where it is a mask; 0.5 unless its format says more
     vn_voxel type;
     void *data;       ///< size[0] size[1] size[2] voxels of `type`
     size_t byte_size; ///< of `data`

@@ -175,6 +175,49 @@ VN_API vn_mesh_def vn_mesh_def_default(void);
 /// mesh that vn_domain_surface() or vn_domain_inside() refuses; messages count vertices and faces from 1.
 VN_API vn_status vn_domain_mesh(vn_domain **out, const char *path, const vn_mesh_def *def);
 
+typedef struct vn_image_def {
+    double threshold; ///< inside are pixels of this brightness or more, 0 (black) to 1 (white); default 0.5
+    bool invert;      ///< inside are darker ones instead; default false
+    double pixel;     ///< the side of a pixel, length, > 0; default 1
+    int component; ///< of a mask whose parts do not hang together by sides of pixels: 0 "one" (the default):
+                   ///< refuse it, unless all but the largest part are specks, of a thousandth of it in all,
+                   ///< which are left out; 1 "largest": take the largest; 2 "all"
+} vn_image_def;
+VN_API vn_image_def vn_image_def_default(void);
+/// What is bright in a .png or .pgm file of 8 or 16 bits, as a 2D domain: the union of the squares of its
+/// pixels, y up, with the image's lower left corner at (0, 0). Brightness is luminance (0.2126 R + 0.7152 G +
+/// 0.0722 B of the values as they are stored) times opacity.
+///
+/// All answers are exact for that union; it combines with other domains as a polygon does.
+/// vn_domain_value() is a pixel's brightness (inverted: 1 less that), the same all over the pixel, and 0
+/// outside: with a threshold of 0, the whole image is a map of density.
+///
+/// VN_IO for a file that is missing, broken or cut off; VN_LIMIT beyond 2^31 - 1 pixels; VN_INVALID for a
+/// mask that is empty, or has several parts where one is asked for.
+VN_API vn_status vn_domain_image(vn_domain **out, const char *path, const vn_image_def *def);
+
+typedef struct vn_volume_def {
+    double threshold; ///< inside are voxels of this value or more; default (-1e300, "not given"): 0.5, and
+                      ///< 128 in a .vol
+    bool invert;      ///< inside are voxels below it instead; default false
+    int component;    ///< as of vn_image_def, by faces of voxels
+} vn_volume_def;
+VN_API vn_volume_def vn_volume_def_default(void);
+/// What is inside in a volume of voxels, as a 3D domain: the union of the boxes of voxels at or above a
+/// threshold. Files are NIfTI-1 (.nii, .nii.gz; placed by its sform, else its qform, else by the sizes of its
+/// voxels), NRRD (.nrrd with its data attached: raw, gzip or ascii; from left-posterior-superior and
+/// left-anterior-superior spaces turned to NIfTI's right-anterior-superior) and DGtal's .vol (voxels 1 wide,
+/// the first one's middle at the origin, or where Center-X, -Y and -Z put it). Voxels are whole numbers of 8,
+/// 16 or 32 bits, float or double; NIfTI's slope and intercept are applied. The unit is the file's.
+///
+/// All answers are exact for that union. The grid may be turned, mirrored and of different spacings, but its
+/// axes have to be at right angles (to within 0.001). vn_domain_value() is a voxel's value over the greatest
+/// inside (in a .vol over 255), within [0, 1] (inverted: 1 less that), the same all over the voxel.
+///
+/// A mask takes 4.3 bytes a voxel, and 1, 2 or 4 more where the values inside differ. Errors as of
+/// vn_domain_image(); VN_INVALID for a sheared grid too.
+VN_API vn_status vn_domain_volume(vn_domain **out, const char *path, const vn_volume_def *def);
+
 #ifdef __cplusplus
 }
 #endif

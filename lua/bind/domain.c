@@ -1,6 +1,7 @@
 #include "bind/bind.h"
 
 #include "domain/domain.h"
+#include "file/mask.h"
 #include "file/mesh.h"
 #include "file/svg.h"
 
@@ -168,6 +169,26 @@ static int make_svg(lua_State *L) {
     return 1;
 }
 
+static int make_image(lua_State *L) {
+    vn_image_def def;
+    lua_settop(L, 2);
+    vnl_read_options(L, 2, &vn_image_schema, &def);
+    const char *path = vnl_push_path(L, 1);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_image((vn_domain **)box, path, &def));
+    return 1;
+}
+
+static int make_volume(lua_State *L) {
+    vn_volume_def def;
+    lua_settop(L, 2);
+    vnl_read_options(L, 2, &vn_volume_schema, &def);
+    const char *path = vnl_push_path(L, 1);
+    void **box = vnl_push_box(L, &vnl_domain_class);
+    vnl_try(L, vn_domain_volume((vn_domain **)box, path, &def));
+    return 1;
+}
+
 // Push the list of a mesh table, and say how long it is.
 static int32_t push_list(lua_State *L, const char *field) {
     if (vnl_raw_field(L, 1, field) != LUA_TTABLE) {
@@ -275,6 +296,18 @@ const vnl_function vnl_domain_functions[] = {
      "becomes "
      "(0, 0), or in mm when the file gives its width in mm, cm, in or pt.",
      &vn_svg_schema},
+    {"image", make_image, "(path: string, options?: venule.image.Options): venule.Domain", NULL,
+     "What is bright in a picture (.png, .pgm), y up, with its lower left corner at (0, 0): the squares of "
+     "its "
+     "pixels, whose values `d:value` gives. With `threshold = 0` the whole picture is a map of density.",
+     &vn_image_schema},
+    {"volume", make_volume, "(path: string, options?: venule.volume.Options): venule.Domain", NULL,
+     "What is inside in a volume of voxels, in 3D: NIfTI (.nii, .nii.gz), NRRD (.nrrd) or DGtal's .vol, in "
+     "the "
+     "file's own coordinates and unit (NRRD's turned to right, anterior, superior as NIfTI has them). "
+     "`d:value` "
+     "is a voxel's value over the greatest inside.",
+     &vn_volume_schema},
     {"mesh", make_mesh,
      "(mesh: string|{vertices: number[][], faces: integer[][]}, options?: venule.mesh.Options): "
      "venule.Domain",
