@@ -56,6 +56,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->first_tie);
     vn_array_free(&a->stage);
     vn_array_free(&a->guards);
+    vn_array_free(&a->farthest2);
     vn_array_free(&a->ties);
     vn_array_free(&a->touched);
     vn_array_free(&a->outdated);
@@ -194,7 +195,8 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
         kept++;
     }
     set_count(a, kept);
-    a->first_tie.count = a->guards.count = a->stage.count = kept < a->stage.count ? kept : a->stage.count;
+    a->stage.count = kept < a->stage.count ? kept : a->stage.count;
+    a->first_tie.count = a->guards.count = a->farthest2.count = a->stage.count;
     a->gone = 0;
     a->attractors_seen = seen;
     a->tree_count = 0;

@@ -41,7 +41,6 @@ enum {
 /// found in its lunes.
 enum { VN_GUARDS = 4 };
 typedef struct vn_guards {
-    double farthest2; ///< no neighbor is farther
     struct {
         double distance2; ///< from the attractor; INFINITY: nobody is posted
         double at[3];
@@ -87,6 +86,7 @@ struct vn_attractors {
     VN_ARRAY(int32_t) first_tie;
     VN_ARRAY(uint8_t) stage;
     VN_ARRAY(vn_guards) guards;
+    VN_ARRAY(double) farthest2; ///< no neighbor is farther
     VN_ARRAY(vn_tie) ties;      ///< of all attractors, in lists
     uint64_t ties_serial;       ///< the network that they belong to
     int32_t free_tie;           ///< the first of those not in use, or -1
@@ -193,8 +193,9 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
 void vn_ties_move(vn_attractors *a, int32_t from, int32_t to);
 /// Find V(s) of attractor @p i among all nodes.
 vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i);
-/// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once.
-bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2);
+/// Whether a new node at @p u is neither to become a neighbor nor to drive one out: for certain, and at once;
+/// and the place of the node that keeps it out.
+bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2, double guard[3]);
 /// Whether the nodes from @p begin on are where new ones were expected to be.
 bool vn_ties_have_room(const vn_attractors *a, const vn_network *network, int32_t begin);
 /// Look at the new nodes in `news`.

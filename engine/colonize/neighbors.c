@@ -51,25 +51,28 @@ vn_status vn_ties_prepare(vn_attractors *a) {
     VN_TRY(vn_array_reserve(&a->first_tie, a->x.count));
     VN_TRY(vn_array_reserve(&a->stage, a->x.count));
     VN_TRY(vn_array_reserve(&a->guards, a->x.count));
+    VN_TRY(vn_array_reserve(&a->farthest2, a->x.count));
     for (int32_t i = a->first_tie.count; i < a->x.count; i++) {
         a->first_tie.data[i] = -1;
         a->stage.data[i] = VN_FREE;
         a->guards.data[i] = no_guards;
+        a->farthest2.data[i] = 0;
     }
-    a->first_tie.count = a->stage.count = a->guards.count = a->x.count;
+    a->first_tie.count = a->stage.count = a->guards.count = a->farthest2.count = a->x.count;
     return VN_OK;
 }
 
 // A guard is certain, whatever doubles do to the last bits; what they cannot tell is decided by push_in().
 static const double SURE = 1 - 1e-12;
 
-bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2) {
+bool vn_ties_keep_out(const vn_attractors *a, int32_t i, const double u[3], double d2, double guard[3]) {
     const vn_guards *guards = &a->guards.data[i];
-    if (a->mode != VN_RELATIVE || d2 <= guards->farthest2) {
+    if (d2 <= a->farthest2.data[i]) {
         return false; // it might drive a neighbor out
     }
     for (int k = 0; k < VN_GUARDS; k++) {
         if (guards->post[k].distance2 < SURE * d2 && vn_distance2(guards->post[k].at, u) < SURE * d2) {
+            memcpy(guard, guards->post[k].at, sizeof guards->post[k].at);
             return true;
         }
     }
@@ -110,12 +113,13 @@ void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i)
             link = &a->ties.data[tie].next;
         }
     }
-    a->guards.data[i].farthest2 = farthest2;
+    a->farthest2.data[i] = farthest2;
 }
 
 void vn_ties_forget(vn_attractors *a, bool moved) {
     for (int32_t i = 0; i < a->first_tie.count; i++) {
         a->guards.data[i] = no_guards;
+        a->farthest2.data[i] = 0;
         for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
             a->ties.data[tie].state |= VN_GHOST;
             a->ties.data[tie].best = moved ? INFINITY : a->ties.data[tie].best;
@@ -140,10 +144,12 @@ void vn_ties_move(vn_attractors *a, int32_t from, int32_t to) {
         a->first_tie.data[to] = first;
         a->stage.data[to] = a->stage.data[from];
         a->guards.data[to] = a->guards.data[from];
+        a->farthest2.data[to] = a->farthest2.data[from];
     } else if (to < a->first_tie.count) { // a newcomer: what the place held before is none of its
         a->first_tie.data[to] = -1;
         a->stage.data[to] = VN_FREE;
         a->guards.data[to] = no_guards;
+        a->farthest2.data[to] = 0;
     }
 }
 
@@ -199,9 +205,10 @@ static vn_status add_tie(vn_attractors *a, const vn_network *network, int32_t i,
     if (a->node.data[i] < 0) {
         VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
     }
-    vn_guards *guards = &a->guards.data[i];
-    post_guard(a, network, i, node, d2 < guards->post[0].distance2);
-    guards->farthest2 = fmax(guards->farthest2, d2);
+    post_guard(a, network, i, node, d2 < a->guards.data[i].post[0].distance2);
+    a->farthest2.data[i] = fmax(a->farthest2.data[i], d2);
+    vn_points points = vn_attractors_points(a);
+    vn_reach_tree_raise_near(&a->tree, &points, i, a->farthest2.data[i]);
     made.next = a->first_tie.data[i];
     a->ties.data[tie] = made;
     a->first_tie.data[i] = tie;

@@ -77,22 +77,31 @@ static vn_status show(vn_attractors *a, const vn_network *network, int32_t i, in
     return VN_OK;
 }
 
+static bool keeps_out(const void *payload, int32_t i, const double p[3], double d2, double guard[3]) {
+    return vn_ties_keep_out(payload, i, p, d2, guard);
+}
+
+static vn_reach_filter filter_of(const vn_attractors *a) {
+    return (vn_reach_filter){keeps_out, a, a->farthest2.data};
+}
+
 static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t node, int32_t seen) {
-    double p[3];
+    double p[3], guard[3];
     vn_points points = vn_attractors_points(a);
+    vn_reach_filter filter = filter_of(a);
+    bool filtered = a->mode == VN_RELATIVE;
     vn_network_position(network, node, p);
     a->hits.count = 0;
-    VN_TRY(vn_reach_tree_query(&a->tree, &points, a->near2.data, p, &a->hits));
+    VN_TRY(vn_reach_tree_query(&a->tree, &points, a->near2.data, filtered ? &filter : NULL, p, &a->hits));
     for (int32_t i = a->tree_count; i < seen; i++) {
         double d2 = vn_points_distance2(&points, i, p);
-        if (d2 <= a->near2.data[i]) {
+        if (d2 <= a->near2.data[i] && !(filtered && vn_ties_keep_out(a, i, p, d2, guard))) {
             VN_TRY(vn_array_push(&a->hits, ((vn_reach_hit){i, d2})));
         }
     }
     for (int32_t h = 0; h < a->hits.count; h++) {
         vn_reach_hit hit = a->hits.data[h];
-        if (hit.point >= seen ||
-            (a->mode != VN_NEAREST && vn_ties_keep_out(a, hit.point, p, hit.distance2))) {
+        if (hit.point >= seen) {
             continue;
         }
         VN_TRY(a->mode == VN_NEAREST ? show(a, network, hit.point, node, hit.distance2)
@@ -101,15 +110,17 @@ static vn_status show_node(vn_attractors *a, const vn_network *network, int32_t 
     return VN_OK;
 }
 
-// The tree may lack a tail of newcomers, which is gone through one by one; when that is long it is built
-// anew.
-static vn_status renew_tree(vn_attractors *a) {
-    int32_t tail = a->x.count - a->tree_count;
-    if (a->tree.levels > 0 && tail <= 64 + a->tree_count / 16) {
+// The tree may lack a tail of newcomers, which each node goes through one by one; when that would take longer
+// than to build it anew, it is.
+static vn_status renew_tree(vn_attractors *a, int32_t nodes) {
+    int64_t tail = a->x.count - a->tree_count;
+    if (a->tree.levels > 0 && tail * nodes <= 32 * (int64_t)a->x.count) {
         return VN_OK;
     }
     vn_points points = vn_attractors_points(a);
-    VN_TRY(vn_reach_tree_build(&a->tree, a->dim, &points, a->near2.data, a->x.count));
+    vn_reach_filter filter = filter_of(a);
+    VN_TRY(vn_reach_tree_build(&a->tree, a->dim, &points, a->near2.data,
+                               a->mode == VN_RELATIVE ? &filter : NULL, a->x.count));
     a->tree_count = a->x.count;
     return VN_OK;
 }
@@ -131,7 +142,7 @@ static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t
     if (begin >= network->x.count || seen == 0) {
         return VN_OK;
     }
-    VN_TRY(renew_tree(a));
+    VN_TRY(renew_tree(a, network->x.count - begin));
     VN_TRY(sort_nodes(a, network, begin));
     for (int32_t k = 0; k < a->nodes.count; k++) {
         VN_TRY(show_node(a, network, a->nodes.data[k].value, seen));

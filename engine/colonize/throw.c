@@ -70,13 +70,34 @@ static double beyond(double distance) {
     return nextafter(distance, INFINITY);
 }
 
-static bool is_clear(const vn_network *network, const vn_point_grid *grid, double clearance,
-                     const double p[3]) {
+/// The nodes that attractors keep clear of, and where these are looked up: nowhere, if none need be.
+typedef struct clearing {
+    const vn_network *network;
+    const vn_point_tree *tree;
+    const vn_point_grid *grid;
+    double reach;
+} clearing;
+
+// Where the relative neighbors are kept, their tree answers too: newcomers look around in it next, and then
+// what is near them has come out of far memory already.
+static vn_status prepare_clearing(clearing *c, vn_network *network, double clearance) {
+    *c = (clearing){.network = network, .reach = beyond(clearance)};
     if (network == NULL || clearance <= 0) {
+        return VN_OK;
+    }
+    return network->tree_of_points.cells.count > 0 ? vn_network_tree_of_points(network, &c->tree)
+                                                   : vn_network_grid(network, clearance, &c->grid);
+}
+
+static bool is_clear(const clearing *c, const double p[3]) {
+    if (c->tree == NULL && c->grid == NULL) {
         return true;
     }
-    vn_points nodes = vn_network_points(network);
-    return vn_point_grid_any_within(grid, &nodes, p, beyond(clearance), NULL, NULL) < 0;
+    vn_points nodes = vn_network_points(c->network);
+    if (c->tree != NULL) {
+        return !vn_point_tree_any_within(c->tree, &nodes, p, c->reach);
+    }
+    return vn_point_grid_any_within(c->grid, &nodes, p, c->reach, NULL, NULL) < 0;
 }
 
 static vn_status stick(vn_attractors *a, double spacing, const double p[3], int32_t *accepted) {
@@ -92,17 +113,12 @@ static vn_status stick(vn_attractors *a, double spacing, const double p[3], int3
     return VN_OK;
 }
 
-static vn_status network_grid(vn_network *network, double clearance, const vn_point_grid **grid) {
-    *grid = NULL;
-    return network != NULL && clearance > 0 ? vn_network_grid(network, clearance, grid) : VN_OK;
-}
-
 static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count,
                       int32_t *accepted) {
-    const vn_point_grid *grid;
-    VN_TRY(network_grid(def->network, def->clearance, &grid));
+    clearing nodes;
+    VN_TRY(prepare_clearing(&nodes, def->network, def->clearance));
     for (int32_t k = 0; k < count; k++) {
-        if (is_clear(def->network, grid, def->clearance, v->at[k])) {
+        if (is_clear(&nodes, v->at[k])) {
             VN_TRY(stick(a, def->spacing, v->at[k], accepted));
         }
     }
@@ -259,13 +275,13 @@ vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
         return vn_fail(VN_INVALID,
                        "these attractors are to keep clear of a network: hand it over beside them");
     }
-    const vn_point_grid *grid;
+    clearing nodes;
     double length = a->margin->kind->margin->length(a->margin);
-    VN_TRY(network_grid(network, a->margin_clearance, &grid));
+    VN_TRY(prepare_clearing(&nodes, network, a->margin_clearance));
     int32_t count = 0;
     while (a->dormant.count > 0 && a->dormant.data[a->dormant.count - 1].arrival <= length) {
         const vn_dormant *next = &a->dormant.data[a->dormant.count - 1];
-        if (is_clear(network, grid, a->margin_clearance, next->p)) {
+        if (is_clear(&nodes, next->p)) {
             VN_TRY(vn_attractors_add(a, next->p));
             count++;
         }

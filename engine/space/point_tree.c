@@ -259,6 +259,52 @@ bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *point
     return tree->cells.count > 0 && any_below(&q, descend_to(&q, &at), &at);
 }
 
+typedef struct near_query {
+    const vn_point_tree *tree;
+    const vn_points *points;
+    const double *p;
+    double radius2;
+} near_query;
+
+static bool any_near_in(const near_query *q, const vn_tree_cell *leaf) {
+    for (int32_t point = leaf->head; point >= 0; point = q->tree->next.data[point]) {
+        if (vn_points_distance2(q->points, point, q->p) < q->radius2) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): as any_below()
+static bool any_near(const near_query *q, int32_t cell, const place *at) {
+    const vn_tree_cell *here = &q->tree->cells.data[cell];
+    if (here->children < 0) {
+        return any_near_in(q, here);
+    }
+    place nearest = *at;
+    int first = octant(q->tree->dim, &nearest, q->p);
+    for (int k = 0; k < 1 << q->tree->dim; k++) {
+        int c = k ^ first;
+        const vn_tree_cell *child = &q->tree->cells.data[here->children + c];
+        if (child->children < 0 && child->count == 0) {
+            continue;
+        }
+        place below = child_place(at, q->tree->dim, c);
+        if (distance2_to(&below, q->tree->dim, q->p) < q->radius2 &&
+            any_near(q, here->children + c, &below)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool vn_point_tree_any_within(const vn_point_tree *tree, const vn_points *points, const double p[3],
+                              double radius) {
+    near_query q = {tree, points, p, radius * radius};
+    place root = root_of(tree);
+    return tree->cells.count > 0 && any_near(&q, 0, &root);
+}
+
 typedef struct around_query {
     const vn_point_tree *tree;
     const vn_points *points;

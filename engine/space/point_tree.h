@@ -23,6 +23,10 @@ void vn_point_tree_free(vn_point_tree *tree);
 /// Insert the points up to @p count that are not yet in it; a zeroed tree is empty.
 vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count);
 
+/// Whether a point is nearer to @p p than @p radius.
+bool vn_point_tree_any_within(const vn_point_tree *tree, const vn_points *points, const double p[3],
+                              double radius);
+
 /// The lune of two points: what is nearer to `s` than `v` is, and no farther from `v` than `s` is.
 typedef struct vn_lune {
     double s[3], v[3];

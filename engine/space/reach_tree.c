@@ -1,10 +1,14 @@
 #include "space/reach_tree.h"
 
+#include <float.h>
+
 enum { FAN = VN_REACH_FAN };
 
 void vn_reach_tree_free(vn_reach_tree *tree) {
     vn_array_free(&tree->items);
     vn_array_free(&tree->packs);
+    vn_array_free(&tree->watches);
+    vn_array_free(&tree->places);
     tree->levels = 0;
 }
 
@@ -64,6 +68,10 @@ static void set_box(vn_reach_pack *pack, int i, const reach_box *box) {
     pack->reach2[i] = box->reach2;
 }
 
+// The far-sighted, by the size of the whole, are kept apart, or every run that one of them is in would be
+// looked at again and again.
+static const double FAR = 0.05;
+
 static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const double *reach2,
                             int32_t count) {
     double low[3], high[3];
@@ -75,11 +83,20 @@ static vn_status sort_items(vn_reach_tree *tree, const vn_points *points, const 
         }
     }
     double size = vn_points_extent(points, 0, count, low, high);
+    for (int k = 0; k < 3; k++) {
+        tree->middle[k] = 0.5 * (low[k] + high[k]);
+    }
+    tree->size = 2 * size;
     status = status == VN_OK ? vn_points_sort(points, tree->dim, low, size, &keys, &scratch) : status;
     status = status == VN_OK ? vn_array_reserve(&tree->items, keys.count) : status;
-    tree->items.count = status == VN_OK ? keys.count : 0;
-    for (int32_t i = 0; i < tree->items.count; i++) {
-        tree->items.data[i] = keys.data[i].value;
+    tree->items.count = 0;
+    for (int far = 1; status == VN_OK && far >= 0; far--) {
+        for (int32_t i = 0; i < keys.count; i++) {
+            int32_t item = keys.data[i].value;
+            if (far == (reach2[item] > FAR * FAR * size * size)) {
+                tree->items.data[tree->items.count++] = item;
+            }
+        }
     }
     vn_array_free(&keys);
     vn_array_free(&scratch);
@@ -117,8 +134,30 @@ static vn_status build_level(vn_reach_tree *tree, int32_t parts, const vn_points
     return VN_OK;
 }
 
+// Nobody is posted yet.
+static vn_status build_watches(vn_reach_tree *tree, int32_t count) {
+    VN_TRY(vn_array_reserve(&tree->watches, tree->packs.count));
+    VN_TRY(vn_array_reserve(&tree->places, count));
+    tree->watches.count = tree->packs.count;
+    tree->places.count = count;
+    for (int32_t k = 0; k < tree->watches.count; k++) {
+        vn_reach_watch *watch = &tree->watches.data[k];
+        *watch = (vn_reach_watch){0};
+        for (int j = 0; j < VN_REACH_GUARDS * FAN; j++) {
+            watch->guards[j % FAN][j / FAN].excess = INFINITY;
+        }
+    }
+    for (int32_t i = 0; i < count; i++) {
+        tree->places.data[i] = -1;
+    }
+    for (int32_t k = 0; k < tree->items.count; k++) {
+        tree->places.data[tree->items.data[k]] = k;
+    }
+    return VN_OK;
+}
+
 vn_status vn_reach_tree_build(vn_reach_tree *tree, int dim, const vn_points *points, const double *reach2,
-                              int32_t count) {
+                              const vn_reach_filter *filter, int32_t count) {
     tree->dim = dim;
     tree->packs.count = 0;
     tree->levels = 0;
@@ -130,22 +169,27 @@ vn_status vn_reach_tree_build(vn_reach_tree *tree, int dim, const vn_points *poi
         VN_TRY(build_level(tree, parts, points, reach2));
         parts = tree->starts[tree->levels] - tree->starts[tree->levels - 1];
     } while (parts > 1 && tree->levels < VN_REACH_LEVELS);
-    return VN_OK;
+    tree->watches.count = tree->places.count = 0;
+    return filter != NULL ? build_watches(tree, count) : VN_OK;
 }
 
 typedef struct reach_query {
     vn_reach_tree *tree;
     const vn_points *points;
     const double *reach2;
+    const vn_reach_filter *filter;
     double p[3];
     float low[3], high[3]; ///< p, rounded down and up
+    double margin;         ///< what rounding may do to squares, and more
     vn_reach_hits *hits;
+    double guard[3]; ///< that kept p out last, while
+    bool guarded;
 } reach_query;
 
-// Bit i: part i may hold an answer. In single precision, on the safe side: p lies between low and high, and
-// the factor outweighs the rounding of squares and sums. The loops have no branches, so that a compiler makes
-// vectors of them.
-static unsigned may_answer(const vn_reach_pack *pack, const reach_query *q) {
+// Bit i: part i may hold an answer, as it is no nearer than @p nearest2 says. In single precision, on the
+// safe side: p lies between low and high, and the factor outweighs the rounding of squares and sums. The
+// loops have no branches, so that a compiler makes vectors of them.
+static unsigned may_answer(const vn_reach_pack *pack, const reach_query *q, float nearest2[FAN]) {
     float d2[FAN] = {0};
     for (int k = 0; k < q->tree->dim; k++) {
 #pragma omp simd
@@ -160,26 +204,90 @@ static unsigned may_answer(const vn_reach_pack *pack, const reach_query *q) {
     unsigned bits = 0;
 #pragma omp simd reduction(| : bits)
     for (int i = 0; i < FAN; i++) {
-        bits |= d2[i] * 0.999999F <= pack->reach2[i] ? 1U << i : 0U;
+        nearest2[i] = d2[i] * 0.999999F;
+        bits |= nearest2[i] <= pack->reach2[i] ? 1U << i : 0U;
     }
     return bits;
 }
 
+/// A part of a pack that is being visited, and its items.
+typedef struct reach_part {
+    vn_reach_pack *pack;
+    vn_reach_watch *watch;
+    int i;
+    int32_t begin, end;
+    float nearest2;
+} reach_part;
+
+// How much nearer every point s of the part is to a guard than to p, in squares, at least; or not at all when
+// the guard is no nearer to p than the part may be. With all places relative to p it is 2 g·s - g².
+static double gain_of(const reach_query *q, const reach_part *part, const double guard[3]) {
+    double gain = 0, way2 = 0;
+    for (int k = 0; k < q->tree->dim; k++) {
+        double way = guard[k] - q->p[k];
+        double low = way * ((double)part->pack->low[k][part->i] - q->p[k]);
+        double high = way * ((double)part->pack->high[k][part->i] - q->p[k]);
+        gain += low < high ? low : high;
+        way2 += way * way;
+    }
+    bool nearer = way2 + q->margin < (double)part->nearest2 && part->nearest2 <= FLT_MAX; // or it overflowed
+    return nearer ? 2 * gain - way2 - q->margin : -1;
+}
+
+static bool is_kept_out(const reach_query *q, const reach_part *part) {
+    for (int g = 0; g < VN_REACH_GUARDS; g++) {
+        const vn_reach_guard *guard = &part->watch->guards[part->i][g];
+        if (gain_of(q, part, guard->at) > guard->excess) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static double excess_of(const vn_points *points, int32_t item, double near2, const double at[3]) {
+    double d2 = vn_points_distance2(points, item, at);
+    return near2 - d2 + 1e-12 * (near2 + d2);
+}
+
+// Whether a guard at @p at would have kept p from the part; then it is posted there.
+static bool post_guard(reach_query *q, const reach_part *part) {
+    const double *at = q->guard;
+    double gain = gain_of(q, part, at), excess = 0;
+    for (int32_t k = part->begin; k < part->end && excess < gain; k++) {
+        int32_t item = q->tree->items.data[k];
+        if (q->reach2[item] >= 0) {
+            double own = excess_of(q->points, item, q->filter->near2[item], at);
+            excess = own > excess ? own : excess;
+        }
+    }
+    if (!(excess < gain)) {
+        return false;
+    }
+    vn_reach_watch *watch = part->watch;
+    int g = watch->turn[part->i];
+    watch->turn[part->i] = (uint8_t)((g + 1) % VN_REACH_GUARDS);
+    watch->guards[part->i][g] = (vn_reach_guard){{at[0], at[1], at[2]}, excess};
+    return true;
+}
+
 // The hits have room for a run more. Returns what the run remembers at most.
-static double query_run(const reach_query *q, int32_t run) {
-    const vn_reach_tree *tree = q->tree;
-    int32_t end = (run + 1) * FAN < tree->items.count ? (run + 1) * FAN : tree->items.count;
+static float query_run(reach_query *q, const reach_part *part) {
     double most = -1;
-    for (int32_t i = run * FAN; i < end; i++) {
-        int32_t item = tree->items.data[i];
+    for (int32_t i = part->begin; i < part->end; i++) {
+        int32_t item = q->tree->items.data[i];
         double remembered = q->reach2[item];
         double d2 = vn_points_distance2(q->points, item, q->p);
-        if (d2 <= remembered) {
+        most = remembered > most ? remembered : most;
+        if (!(d2 <= remembered)) {
+            continue;
+        }
+        if (q->filter != NULL && q->filter->keeps_out(q->filter->payload, item, q->p, d2, q->guard)) {
+            q->guarded = true;
+        } else {
             q->hits->data[q->hits->count++] = (vn_reach_hit){item, d2};
         }
-        most = remembered > most ? remembered : most;
     }
-    return most;
+    return float_above(most);
 }
 
 static float most_of(const vn_reach_pack *pack) {
@@ -190,39 +298,57 @@ static float most_of(const vn_reach_pack *pack) {
     return most;
 }
 
+static vn_status query_pack(reach_query *q, int level, int32_t index);
+
+// Items of the part that are kept out one by one might have been kept out together.
+static vn_status query_part(reach_query *q, int level, int32_t index, reach_part *part) {
+    const vn_reach_tree *tree = q->tree;
+    int32_t before = q->hits->count;
+    int64_t items = (int64_t)FAN << (3 * level), end = (index + 1) * items;
+    part->begin = (int32_t)(index * items);
+    part->end = (int32_t)(end < tree->items.count ? end : tree->items.count);
+    if (level == 0) {
+        VN_TRY(vn_array_reserve(q->hits, before + FAN));
+        q->guarded = false;
+        part->pack->reach2[part->i] = query_run(q, part);
+    } else {
+        VN_TRY(query_pack(q, level - 1, index));
+        part->pack->reach2[part->i] = most_of(&tree->packs.data[tree->starts[level - 1] + index]);
+    }
+    q->guarded = q->guarded && part->watch != NULL && q->hits->count == before && post_guard(q, part);
+    return VN_OK;
+}
+
 // What is remembered only shrinks between builds (but for vn_reach_tree_raise()), so a bound may be stale but
 // never wrong; each visit renews it.
-static vn_status query_pack(const reach_query *q, int level, int32_t index) {
+static vn_status query_pack(reach_query *q, int level, int32_t index) {
     vn_reach_tree *tree = q->tree;
     vn_reach_pack *pack = &tree->packs.data[tree->starts[level] + index];
-    unsigned bits = may_answer(pack, q);
+    vn_reach_watch *watch = q->filter != NULL ? &tree->watches.data[tree->starts[level] + index] : NULL;
+    float nearest2[FAN];
+    unsigned bits = may_answer(pack, q, nearest2);
     for (int i = 0; bits != 0; i++, bits >>= 1) {
-        int32_t part = index * FAN + i;
-        if (!(bits & 1)) {
-            continue;
-        }
-        if (level == 0) {
-            VN_TRY(vn_array_reserve(q->hits, q->hits->count + FAN));
-            pack->reach2[i] = float_above(query_run(q, part));
-        } else {
-            VN_TRY(query_pack(q, level - 1, part));
-            pack->reach2[i] = most_of(&tree->packs.data[tree->starts[level - 1] + part]);
+        reach_part part = {pack, watch, i, 0, 0, nearest2[i]};
+        if ((bits & 1) && (watch == NULL || !is_kept_out(q, &part))) {
+            VN_TRY(query_part(q, level, index * FAN + i, &part));
         }
     }
     return VN_OK;
 }
 
 vn_status vn_reach_tree_query(vn_reach_tree *tree, const vn_points *points, const double *reach2,
-                              const double p[3], vn_reach_hits *hits) {
+                              const vn_reach_filter *filter, const double p[3], vn_reach_hits *hits) {
     if (tree->levels == 0 || tree->items.count == 0) {
         return VN_OK;
     }
-    reach_query q = {.tree = tree, .points = points, .reach2 = reach2, .hits = hits};
+    reach_query q = {.tree = tree, .points = points, .reach2 = reach2, .filter = filter, .hits = hits};
     for (int k = 0; k < 3; k++) {
         q.p[k] = p[k];
         q.low[k] = float_below(p[k]);
         q.high[k] = float_above(p[k]);
     }
+    double widest = sqrt(vn_distance2(p, tree->middle)) + tree->size;
+    q.margin = 1e-12 * widest * widest;
     return query_pack(&q, tree->levels - 1, 0);
 }
 
@@ -246,5 +372,20 @@ static void raise_pack(vn_reach_tree *tree, int level, int32_t index, const doub
 void vn_reach_tree_raise(vn_reach_tree *tree, const double p[3], double reach2) {
     if (tree->levels > 0 && tree->items.count > 0) {
         raise_pack(tree, tree->levels - 1, 0, p, float_above(reach2));
+    }
+}
+
+void vn_reach_tree_raise_near(vn_reach_tree *tree, const vn_points *points, int32_t point, double near2) {
+    if (point >= tree->places.count || tree->places.data[point] < 0) {
+        return;
+    }
+    int32_t part = tree->places.data[point] / FAN;
+    for (int level = 0; level < tree->levels; level++, part /= FAN) {
+        vn_reach_watch *watch = &tree->watches.data[tree->starts[level] + part / FAN];
+        for (int g = 0; g < VN_REACH_GUARDS; g++) {
+            vn_reach_guard *guard = &watch->guards[part % FAN][g];
+            double excess = excess_of(points, point, near2, guard->at);
+            guard->excess = excess > guard->excess ? excess : guard->excess;
+        }
     }
 }

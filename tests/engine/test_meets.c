@@ -92,6 +92,19 @@ static void ask_for_part(vn_lune *lune, vn_rng *rng, int kind) {
     lune->least = kind & 2 ? along : -INFINITY;
 }
 
+// At exactly the radius a point is not within it.
+static void check_within(const cloud *c, const vn_point_tree *tree, vn_rng *rng) {
+    vn_points points = points_of(c);
+    double p[3], radius = (double)whole(rng, 0, 40);
+    vn_points_get(&points, (int32_t)whole(rng, 0, c->count - 1), p);
+    p[whole(rng, 0, c->dim - 1)] += (double)whole(rng, -40, 40);
+    bool any = false;
+    for (int32_t i = 0; i < c->count; i++) {
+        any = any || vn_points_distance2(&points, i, p) < radius * radius;
+    }
+    assert_int_equal(vn_point_tree_any_within(tree, &points, p, radius), any);
+}
+
 static void the_tree_shows_what_is_in_a_lune(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 600; seed++) {
@@ -109,6 +122,7 @@ static void the_tree_shows_what_is_in_a_lune(void **state) {
             vn_points_get(&points, (int32_t)whole(&rng, 0, c.count - 1), lune.v);
             ask_for_part(&lune, &rng, k % 4);
             check_lune(&c, &tree, &lune);
+            check_within(&c, &tree, &rng);
         }
         vn_point_tree_free(&tree);
     }

@@ -219,7 +219,7 @@ static void check_hits(vn_reach_tree *tree, const cloud *c, const double *reach2
     vn_points points = points_of(c);
     vn_reach_hits hits = {0};
     int32_t k = 0;
-    assert_ok(vn_reach_tree_query(tree, &points, reach2, p, &hits));
+    assert_ok(vn_reach_tree_query(tree, &points, reach2, NULL, p, &hits));
     if (hits.count > 1) {
         qsort(hits.data, (size_t)hits.count, sizeof *hits.data, by_point);
     }
@@ -268,7 +268,7 @@ static void a_reach_tree_finds_what_asking_everybody_finds(void **state) {
         }
         for (int build = 0; build < 3; build++) {
             vn_points points = points_of(&c);
-            assert_ok(vn_reach_tree_build(&tree, dim, &points, reach2, c.count));
+            assert_ok(vn_reach_tree_build(&tree, dim, &points, reach2, NULL, c.count));
             for (int q = 0; q < 40; q++) {
                 double p[3];
                 query_place(&rng, &c, kind, p);
@@ -280,18 +280,109 @@ static void a_reach_tree_finds_what_asking_everybody_finds(void **state) {
     }
 }
 
+typedef struct crowd {
+    const cloud *c;
+    int guards;
+    double guard[24][3];
+    double near2[MOST];
+} crowd;
+
+static bool is_kept_out(const void *payload, int32_t i, const double p[3], double d2, double guard[3]) {
+    const crowd *all = payload;
+    vn_points points = points_of(all->c);
+    for (int g = 0; g < all->guards && d2 > all->near2[i]; g++) {
+        double sure = (1 - 1e-12) * d2;
+        if (vn_points_distance2(&points, i, all->guard[g]) < sure && vn_distance2(all->guard[g], p) < sure) {
+            memcpy(guard, all->guard[g], sizeof all->guard[g]);
+            return true;
+        }
+    }
+    return false;
+}
+
+// What boxes are guarded from is what the points in them are guarded from one by one.
+static void check_unguarded(vn_reach_tree *tree, const crowd *all, const double *reach2, const double p[3]) {
+    vn_points points = points_of(all->c);
+    vn_reach_filter filter = {is_kept_out, all, all->near2};
+    vn_reach_hits hits = {0};
+    int32_t k = 0;
+    double guard[3];
+    assert_ok(vn_reach_tree_query(tree, &points, reach2, &filter, p, &hits));
+    if (hits.count > 1) {
+        qsort(hits.data, (size_t)hits.count, sizeof *hits.data, by_point);
+    }
+    for (int32_t i = 0; i < all->c->count; i++) {
+        double d2 = vn_points_distance2(&points, i, p);
+        if (d2 <= reach2[i] && !is_kept_out(all, i, p, d2, guard)) {
+            assert_true(k < hits.count);
+            assert_int_equal(hits.data[k++].point, i);
+        }
+    }
+    assert_int_equal(k, hits.count);
+    vn_array_free(&hits);
+}
+
+// Guards come, and points heed what is farther off, or nearer alone.
+static void change_interest(vn_reach_tree *tree, crowd *all, vn_rng *rng, int kind) {
+    vn_points points = points_of(all->c);
+    if (all->guards < 24 && whole(rng, 0, 9) == 0) {
+        query_place(rng, all->c, kind, all->guard[all->guards++]);
+    }
+    for (int n = 0; n < 3; n++) {
+        int32_t i = (int32_t)whole(rng, 0, all->c->count - 1);
+        all->near2[i] *= uniform(rng, 0, 2);
+        vn_reach_tree_raise_near(tree, &points, i, all->near2[i]);
+    }
+}
+
+static void fill_crowd(crowd *all, const cloud *c, vn_rng *rng, double reach2[MOST]) {
+    all->c = c;
+    all->guards = 0;
+    for (int32_t i = 0; i < c->count; i++) {
+        double reach = whole(rng, 0, 3) > 0 ? INFINITY : pow(10, uniform(rng, -3, 1));
+        reach2[i] = whole(rng, 0, 9) == 0 ? -1 : reach * reach;
+        all->near2[i] = pow(10, uniform(rng, -6, 1));
+    }
+}
+
+static void a_guarded_reach_tree_finds_what_nobody_keeps_out(void **state) {
+    static cloud c;
+    static crowd all;
+    static double reach2[MOST];
+    (void)state;
+    vn_rng rng = vn_rng_make(3);
+    for (int round = 0; round < 100; round++) {
+        int kind = round % KINDS, dim = round / KINDS % 2 + 2;
+        vn_reach_tree tree = {.dim = dim};
+        fill_cloud(&c, &rng, kind, dim, (int32_t)whole(&rng, 1, round % 2 == 0 ? MOST : 90));
+        fill_crowd(&all, &c, &rng, reach2);
+        vn_points points = points_of(&c);
+        vn_reach_filter filter = {is_kept_out, &all, all.near2};
+        assert_ok(vn_reach_tree_build(&tree, dim, &points, reach2, &filter, c.count));
+        for (int q = 0; q < 100; q++) {
+            double p[3];
+            query_place(&rng, &c, kind, p);
+            check_unguarded(&tree, &all, reach2, p);
+            change_interest(&tree, &all, &rng, kind);
+            double *remembered = &reach2[whole(&rng, 0, c.count - 1)];
+            *remembered = fmin(*remembered, whole(&rng, 0, 3) == 0 ? -1 : 0);
+        }
+        vn_reach_tree_free(&tree);
+    }
+}
+
 static void a_tree_of_nobody_answers_nothing(void **state) {
     (void)state;
     vn_reach_tree tree = {0};
     vn_reach_hits hits = {0};
     double x[2] = {0, 1}, y[2] = {0, 1}, gone[2] = {-1, -1}, p[3] = {0, 0, 0};
     vn_points points = {x, y, NULL};
-    assert_ok(vn_reach_tree_query(&tree, &points, gone, p, &hits));
-    assert_ok(vn_reach_tree_build(&tree, 2, &points, gone, 2));
+    assert_ok(vn_reach_tree_query(&tree, &points, gone, NULL, p, &hits));
+    assert_ok(vn_reach_tree_build(&tree, 2, &points, gone, NULL, 2));
     vn_reach_tree_raise(&tree, p, 4);
-    assert_ok(vn_reach_tree_query(&tree, &points, gone, p, &hits));
-    assert_ok(vn_reach_tree_build(&tree, 2, &points, gone, 0));
-    assert_ok(vn_reach_tree_query(&tree, &points, gone, p, &hits));
+    assert_ok(vn_reach_tree_query(&tree, &points, gone, NULL, p, &hits));
+    assert_ok(vn_reach_tree_build(&tree, 2, &points, gone, NULL, 0));
+    assert_ok(vn_reach_tree_query(&tree, &points, gone, NULL, p, &hits));
     assert_int_equal(hits.count, 0);
     vn_array_free(&hits);
     vn_reach_tree_free(&tree);
@@ -523,6 +614,7 @@ int main(void) {
         counted_test(an_empty_grid_finds_nothing),
         counted_test(far_points_do_not_confuse_a_grid),
         counted_test(a_reach_tree_finds_what_asking_everybody_finds),
+        counted_test(a_guarded_reach_tree_finds_what_nobody_keeps_out),
         counted_test(a_tree_of_nobody_answers_nothing),
         counted_test(a_segment_grid_finds_what_asking_everybody_finds),
         counted_test(a_grid_of_no_segments_finds_none),
