@@ -335,7 +335,7 @@ static vn_status start_darts(vn_cco *cco, vn_grower *g, int32_t tree) {
     vn_rng rng = {.seed = (uint64_t)cco->def.seed,
                   .stream = vn_hash(2, (uint64_t)tree, (uint64_t)g->draws, 0)};
     double last = cco->def.spacing * pow(vn_domain_measure(cco->part) / g->wanted, 1.0 / cco->dim);
-    return vn_darts_init(&g->darts, cco->dim, cco->part, 0.05 * last, cco->def.density,
+    return vn_darts_init(&g->darts, cco->dim, cco->part, 0.3 * last, cco->def.density,
                          cco->def.density_payload, &rng);
 }
 
@@ -349,6 +349,7 @@ static vn_status fill_tree(vn_cco *cco, vn_grower *g, const vn_cco_tree_def *def
     g->terminal_flow = def->terminal_flow > 0 ? def->terminal_flow : def->inflow / cco->def.terminals;
     g->tree.factor = 8 * def->viscosity / PI / (def->pressure_in - def->pressure_out);
     VN_TRY(set_exponents(&g->tree, def));
+    VN_TRY(vn_array_reserve(&g->tree.vessels, 2 * (int64_t)cco->def.terminals));
     if (def->from == NULL) {
         VN_TRY(add_root(cco, g, def->root));
     } else {
@@ -532,10 +533,16 @@ static bool is_taken(const double p[3], void *payload) {
     return border <= 0 || border < least_radius(d->cco, d->g, p);
 }
 
-static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, double p[3]) {
+// Where a terminal could not be connected, the next ones would fall again: the widest gap is there. So with
+// every attempt they may come nearer to vessels. Growing elsewhere lowers the share of the flow that vessels
+// to the gap have, and they can take more again.
+static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, int32_t attempt, double p[3]) {
+    enum { NEAREST = 20 };
     draw d = {cco, g};
     double share = vn_domain_measure(cco->part) / (g->terminals - g->stage_start + 1);
-    vn_dart_search search = {.threshold = cco->def.spacing * pow(share, 1.0 / cco->dim), // (15), READINGS R11
+    double threshold = cco->def.spacing * pow(share, 1.0 / cco->dim); // (15), READINGS R11
+    threshold *= pow(cco->def.threshold, attempt < NEAREST ? attempt : NEAREST);
+    vn_dart_search search = {.threshold = threshold,
                              .factor = cco->def.threshold,
                              .tries = cco->def.tries,
                              .distance = distance_to_tree,
@@ -575,7 +582,7 @@ static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
     for (int32_t i = 0; i <= cco->def.redraws; i++) {
         double p[3], flow;
         bool done;
-        VN_TRY(draw_terminal(cco, g, tree, p));
+        VN_TRY(draw_terminal(cco, g, tree, i, p));
         VN_TRY(flow_at(g, p, &flow));
         cco->patient = i < cco->def.redraws / 4 && cco->def.foresight > 0;
         VN_TRY(vn_connect(cco, g, p, flow, &done));

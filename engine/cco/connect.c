@@ -8,7 +8,7 @@
 
 // The bifurcation point is known to this part of the triangle when candidates are compared, and to the last
 // digit in the one that is taken: the volume is flat about its minimum.
-static const double ROUGH = 1e-4, FINE = 1e-10;
+static const double ROUGH = 1e-4, FINE = 1e-8;
 // Estimates are within this part of the truth.
 static const double DOUBT = 0.05;
 enum { ROUGH_ROUNDS = 1, FINE_ROUNDS = 40, KAMIYA_ROUNDS = 500 };
@@ -204,6 +204,15 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
     return grow_first(g, &plan, flow);
 }
 
+// The exact volume at the point as it is known so far.
+static void measure(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
+    vn_branch branches[3];
+    if (cco->def.bifurcation == VN_BIFURCATE_LEAST) {
+        vn_triangle_branches(&c->triangle, c->x, branches);
+        c->effect = vn_tree_effect(&g->tree, c->node, &branches[0]);
+    }
+}
+
 // In the order of their volumes: exactly among those that may be best, by the estimates among the rest.
 static void sort_candidates(const vn_cco *cco, vn_grower *g) {
     vn_candidate *c = g->candidates.data;
@@ -214,7 +223,7 @@ static void sort_candidates(const vn_cco *cco, vn_grower *g) {
     qsort(c, (size_t)count, sizeof *c, by_volume);
     double limit = c[0].effect.volume + DOUBT * fabs(c[0].effect.volume);
     while (few < count && c[few].effect.volume <= limit) {
-        refine(cco, g, &c[few++]);
+        measure(cco, g, &c[few++]);
     }
     qsort(c, (size_t)few, sizeof *c, by_volume);
 }

@@ -243,7 +243,7 @@ static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_da
 }
 
 // Cells much smaller than the threshold would tell little more, and there would be many.
-static const double SMALLEST = 0.8;
+static const double SMALLEST = 1.0;
 
 // A dart in this cell was in vain: the vessel that refused it bounds the cell, or its parts.
 static vn_status learn(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search,
