@@ -113,13 +113,13 @@ static void count_refusal(vn_grower *g, vn_verdict verdict) {
 }
 
 // Lengths alone tell of most candidates that they are too short, before anybody looks around.
-static bool is_short(const vn_grower *g, const vn_plan *plan) {
+static bool is_short(const vn_grower *g, const vn_plan *plan, double doubt) {
     const double *distal = vn_vessel_of(g, plan->node)->p, *start = vn_vessel_of(g, plan->upper)->p;
     double lengths[3] = {sqrt(vn_distance2(start, plan->x)), sqrt(vn_distance2(plan->x, distal)),
                          sqrt(vn_distance2(plan->x, plan->terminal))};
     for (int i = 0; i < 3; i++) {
         bool given = i == 1 && plan->node < g->given;
-        if (!given && 2 * plan->radius[i] > lengths[i]) {
+        if (!given && 2 * plan->radius[i] * (1 - doubt) > lengths[i]) {
             return true;
         }
     }
@@ -127,7 +127,7 @@ static bool is_short(const vn_grower *g, const vn_plan *plan) {
 }
 
 static vn_status judge_once(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict) {
-    *verdict = is_short(g, plan) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
+    *verdict = is_short(g, plan, 0) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
     return *verdict == VN_ALLOWED ? vn_rules_judge(cco, g, plan, verdict) : VN_OK;
 }
 
@@ -207,10 +207,11 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
 // The exact volume at the point as it is known so far.
 static void measure(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
     vn_branch branches[3];
-    if (cco->def.bifurcation == VN_BIFURCATE_LEAST) {
+    if (!c->measured && cco->def.bifurcation == VN_BIFURCATE_LEAST) {
         vn_triangle_branches(&c->triangle, c->x, branches);
         c->effect = vn_tree_effect(&g->tree, c->node, &branches[0]);
     }
+    c->measured = true;
 }
 
 // In the order of their volumes: exactly among those that may be best, by the estimates among the rest.
@@ -232,10 +233,14 @@ static vn_status try_candidate(vn_cco *cco, vn_grower *g, vn_candidate *c, const
                                double flow, bool *done) {
     vn_plan plan;
     vn_verdict verdict = VN_SHORT;
-    refine(cco, g, c);
-    if (c->effect.volume < INFINITY) {
-        make_plan(cco, g, c, terminal, &plan);
-        VN_TRY(judge_once(cco, g, &plan, &verdict));
+    measure(cco, g, c);
+    make_plan(cco, g, c, terminal, &plan);
+    if (!is_short(g, &plan, 0.01)) { // at the point as it is roughly known
+        refine(cco, g, c);
+        if (c->effect.volume < INFINITY) {
+            make_plan(cco, g, c, terminal, &plan);
+            VN_TRY(judge_once(cco, g, &plan, &verdict));
+        }
     }
     if (verdict != VN_ALLOWED) {
         count_refusal(g, verdict);

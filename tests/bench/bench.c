@@ -1,6 +1,7 @@
 // Speed and memory of open venation, in seconds and in yardsticks of the same run. Figures, never a test:
 // nothing fails here for being slow.
 
+#include "bench_cco.h"
 #include "report.h"
 #include "yardstick.h"
 
@@ -317,8 +318,11 @@ static void bench_poplar(report *r, double yard, bool quick) {
 static const struct {
     const char *name;
     void (*run)(report *r, double yard, bool quick);
-} benches[] = {
-    {"open", bench_open}, {"webb", bench_webb}, {"closed", bench_closed}, {"poplar", bench_poplar}};
+} benches[] = {{"open", bench_open},
+               {"webb", bench_webb},
+               {"closed", bench_closed},
+               {"poplar", bench_poplar},
+               {"cco", bench_cco}};
 
 enum { BENCHES = sizeof benches / sizeof *benches };
 
@@ -352,7 +356,8 @@ static bool read_options(bench_options *o, int argc, char **argv) {
             o->names[o->count++] = argv[i];
         } else {
             fprintf(stderr,
-                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [poplar] [--quick] [--json "
+                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [poplar] [cco] [--quick] "
+                    "[--json "
                     "FILE] "
                     "[--csv FILE] "
                     "[--compare FILE.json])\n",
