@@ -20,7 +20,7 @@ static const vn_field cco_fields[] = {
     {"domain", VN_OBJECT, VN_REQUIRED, offsetof(vn_cco_def, domain), 0, 0, "", "domain",
      "where everything is to lie"},
     {"terminals", VN_I32, 0, offsetof(vn_cco_def, terminals), 1, 100000000, "terminals", NULL,
-     "how many each tree is to have in the end"},
+     "how many each tree is to have in the end; or a list {{x, y}, …} of where they are, in their order"},
     {"seed", VN_I64, 0, offsetof(vn_cco_def, seed), -9e18, 9e18, "", NULL, "of the random terminals"},
     {"placement", VN_CHOICE, 0, offsetof(vn_cco_def, placement), 0, 0, "", "segments|terminals",
      "what a new terminal keeps away from: vessels (section 3.3.2), or terminals and the insides of vessels "
@@ -48,6 +48,8 @@ static const vn_field cco_fields[] = {
      "that vessels keep from the border"},
     {"growing_domain", VN_BOOL, 0, offsetof(vn_cco_def, growing_domain), 0, 0, "", NULL,
      "sizes hold as if the domain grew with the tree (Equation 14)"},
+    {"density", VN_MIXED, 0, offsetof(vn_cco_def, density), 0, 0, "", "a function (x, y[, z]), or a domain",
+     "how dense terminals are at a point, 0 to 1: a function (x, y[, z]), or a domain whose values count"},
 };
 const vn_schema vn_cco_schema =
     VN_SCHEMA("cco", "Arterial trees by constrained constructive optimisation", cco_fields, cco_default);
@@ -61,14 +63,24 @@ static const vn_cco_tree_def tree_default = {.inflow = 500000.0 / 60,
 static const vn_field tree_fields[] = {
     {"root", VN_POINT, 0, offsetof(vn_cco_tree_def, root), -VN_HUGE, VN_HUGE, "length", NULL,
      "where the tree begins, in the domain or on its border"},
+    {"from", VN_OBJECT, 0, offsetof(vn_cco_tree_def, from), 0, 0, "", "network",
+     "a tree to grow on from instead: its nodes, not its radii"},
     {"inflow", VN_F64, VN_ABOVE_MIN, offsetof(vn_cco_tree_def, inflow), 0, 1e150, "mm³/s", NULL,
      "of the whole tree at the end, shared by its terminals; 500 mL/min"},
+    {"terminal_flow", VN_MIXED, 0, offsetof(vn_cco_tree_def, terminal_flow), 0, 0, "mm³/s",
+     "a number, a function (x, y[, z]), or a domain",
+     "of each terminal, in place of inflow; or what a terminal's share of the inflow is multiplied by: a "
+     "function (x, y[, z]), or a domain whose values count"},
     {"viscosity", VN_F64, VN_ABOVE_MIN, offsetof(vn_cco_tree_def, viscosity), 0, 1e150, "Pa·s", NULL,
      "of the blood"},
     {"pressure_in", VN_F64, 0, offsetof(vn_cco_tree_def, pressure_in), -1e150, 1e150, "Pa", NULL,
      "where blood enters; 100 mmHg"},
     {"pressure_out", VN_F64, 0, offsetof(vn_cco_tree_def, pressure_out), -1e150, 1e150, "Pa", NULL,
      "where it leaves; 60 mmHg"},
+    {"exponent", VN_MIXED, 0, offsetof(vn_cco_tree_def, exponent), 0, 0, "",
+     "a number, a list {{flow, exponent}, …}, or a function (flow)",
+     "γ of Equation 4, 1 to 100; left out: 3. Or {{flow, exponent}, …} or function(flow): by the flow that "
+     "comes to a bifurcation"},
     {"symmetry", VN_F64, 0, offsetof(vn_cco_tree_def, symmetry), 0, 1, "", NULL,
      "bifurcations whose thinner vessel is below this part of the thicker are refused"},
     {"venous", VN_BOOL, 0, offsetof(vn_cco_tree_def, venous), 0, 0, "", NULL,

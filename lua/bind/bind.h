@@ -42,6 +42,7 @@ extern const vnl_class vnl_influence_class;
 extern const vnl_class vnl_rng_class;
 extern const vnl_class vnl_canvas_class;
 extern const vnl_class vnl_volume_class;
+extern const vnl_class vnl_cco_class;
 
 /// All classes, ended by NULL.
 extern const vnl_class *const vnl_classes[];
@@ -52,6 +53,7 @@ extern const vnl_function vnl_network_functions[];
 extern const vnl_function vnl_attractors_functions[];
 extern const vnl_function vnl_canvas_functions[];
 extern const vnl_function vnl_voxels_functions[];
+extern const vnl_function vnl_cco_functions[];
 extern const vnl_function vnl_domain_functions[];
 extern const vnl_function vnl_growth_functions[];
 
@@ -92,6 +94,8 @@ void vnl_read_options(lua_State *L, int index, const vn_schema *schema, void *de
 // Options are read raw, and everything that may run Lua (callbacks, the manifest, an allocation that collects
 // garbage) comes before the objects are fetched by vnl_check(): whatever Lua runs may close them.
 
+/// Push the schema as rows of lua/venule/options.lua.
+void vnl_push_rows(lua_State *L, const vn_schema *schema);
 /// Push a field of the table at @p index without asking its metatable; returns its type.
 int vnl_raw_field(lua_State *L, int index, const char *field);
 /// Whether the table at @p index has the field; used where "not given" differs from every value.

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-const vnl_class *const vnl_classes[] = {&vnl_domain_class,     &vnl_growth_class,    &vnl_network_class,
-                                        &vnl_attractors_class, &vnl_influence_class, &vnl_canvas_class,
-                                        &vnl_volume_class,     &vnl_rng_class,       NULL};
+const vnl_class *const vnl_classes[] = {
+    &vnl_domain_class, &vnl_growth_class, &vnl_network_class, &vnl_attractors_class, &vnl_influence_class,
+    &vnl_canvas_class, &vnl_volume_class, &vnl_cco_class,     &vnl_rng_class,        NULL};
 
 static int make_rng(lua_State *L) {
     lua_Integer seed = vnl_check_integer(L, 1, "rng seed");
@@ -186,6 +186,7 @@ int luaopen_venule(lua_State *L) {
     add_functions(L, vnl_attractors_functions);
     add_functions(L, vnl_canvas_functions);
     add_functions(L, vnl_voxels_functions);
+    add_functions(L, vnl_cco_functions);
     vnl_push_functions(L, vnl_domain_functions);
     make_strict(L, "venule.domain");
     lua_setfield(L, -2, "domain");
@@ -203,6 +204,7 @@ int luaopen_venule(lua_State *L) {
     merge_embedded(L, "venule.veinlets");
     merge_embedded(L, "venule.venation");
     merge_embedded(L, "venule.brochidodromous");
+    merge_embedded(L, "venule.cco");
     make_strict(L, "venule");
     return 1;
 }

@@ -327,3 +327,83 @@ void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit)
         lua_setfield(L, -2, "unit");
     }
 }
+
+// ---- A schema for the reader in Lua ----
+
+static bool is_number(const vn_field *field) {
+    return field->type == VN_F64 || field->type == VN_I32 || field->type == VN_I64;
+}
+
+static void push_choices(lua_State *L, const char *choices) {
+    lua_newtable(L);
+    for (lua_Integer i = 1; choices != NULL; i++) {
+        const char *end = strchr(choices, '|');
+        lua_pushlstring(L, choices, end != NULL ? (size_t)(end - choices) : strlen(choices));
+        lua_rawseti(L, -2, i);
+        choices = end != NULL ? end + 1 : NULL;
+    }
+}
+
+static void push_default(lua_State *L, const vn_schema *schema, const vn_field *field) {
+    const void *slot = (const char *)schema->defaults + field->offset;
+    if (field->flags & (VN_OPTIONAL | VN_REQUIRED)) {
+        lua_pushnil(L);
+    } else if (field->type == VN_F64) {
+        lua_pushnumber(L, *(const double *)slot);
+    } else if (is_number(field)) {
+        lua_pushinteger(L, (lua_Integer)vn_field_number(field, schema->defaults));
+    } else if (field->type == VN_BOOL) {
+        lua_pushboolean(L, *(const bool *)slot);
+    } else if (field->type == VN_CHOICE) {
+        push_choices(L, field->kind);
+        lua_rawgeti(L, -1, *(const int *)slot + 1);
+        lua_remove(L, -2);
+    } else {
+        lua_pushnil(L);
+    }
+}
+
+static void set_range(lua_State *L, const vn_field *field) {
+    static const double open = 1e15; // beyond it a limit is there for the arithmetic, and not for the reader
+    if (field->min > -open) {
+        vnl_set_number(L, field->flags & VN_ABOVE_MIN ? "above" : "min", field->min);
+    }
+    if (field->max < open) {
+        vnl_set_number(L, "max", field->max);
+    }
+}
+
+static void set_text(lua_State *L, const char *name, const char *text) {
+    lua_pushstring(L, text);
+    lua_setfield(L, -2, name);
+}
+
+static void push_row(lua_State *L, const vn_schema *schema, const vn_field *field) {
+    static const char *const types[] = {"number", "integer", "integer",  "boolean", "string",
+                                        "table",  "string",  "userdata", "any"};
+    lua_createtable(L, 2, 6);
+    lua_pushstring(L, field->name);
+    lua_rawseti(L, -2, 1);
+    push_default(L, schema, field);
+    lua_rawseti(L, -2, 2);
+    set_text(L, "type", types[field->type]);
+    set_text(L, "unit", field->unit);
+    set_text(L, "doc", field->doc);
+    lua_pushboolean(L, (field->flags & VN_REQUIRED) != 0);
+    lua_setfield(L, -2, "required");
+    if (is_number(field)) {
+        set_range(L, field);
+    }
+    if (field->type == VN_CHOICE) {
+        push_choices(L, field->kind);
+        lua_setfield(L, -2, "choices");
+    }
+}
+
+void vnl_push_rows(lua_State *L, const vn_schema *schema) {
+    lua_createtable(L, schema->count, 0);
+    for (int i = 0; i < schema->count; i++) {
+        push_row(L, schema, &schema->fields[i]);
+        lua_rawseti(L, -2, i + 1);
+    }
+}

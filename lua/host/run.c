@@ -62,6 +62,14 @@ static int exit_usage(lua_State *L) {
     return lua_error(L);
 }
 
+// The results are there, but less than what was asked for.
+static int exit_infeasible(lua_State *L) {
+    luaL_checkstring(L, 1);
+    lua_settop(L, 1);
+    remember_exit(L, vn_exit_status(VN_INFEASIBLE));
+    return lua_error(L);
+}
+
 static const char *row_field(lua_State *L, const char *name) {
     lua_getfield(L, -1, name);
     const char *text = lua_isnil(L, -1) ? NULL : luaL_tolstring(L, -1, NULL);
@@ -190,6 +198,8 @@ static void set_host(lua_State *L, run_options *options, size_t size, const char
     lua_setfield(L, -2, "show_help");
     lua_pushcfunction(L, exit_usage);
     lua_setfield(L, -2, "fail_usage");
+    lua_pushcfunction(L, exit_infeasible);
+    lua_setfield(L, -2, "fail_infeasible");
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.host");
 }
 

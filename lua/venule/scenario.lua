@@ -110,6 +110,14 @@ function scenario.note(text)
   if host.note then host.note(text) elseif io then io.stderr:write("note: ", text, "\n") end
 end
 
+local shortfall
+
+--- Say that the results will be less than what was asked for: they are written, and then the run ends with this text and exit
+--- status 3. nil takes it back.
+function scenario.shortfall(text)
+  shortfall = text
+end
+
 local told
 
 --- Say, once, why the last `extend` added nothing although attractors are left.
@@ -306,6 +314,10 @@ function scenario.result(given)
     host.finish(outputs, summary(r))
   else
     print(table.concat(outputs, "\n"))
+  end
+  if shortfall then
+    if host.fail_infeasible then host.fail_infeasible(shortfall) end
+    error(shortfall, 0)
   end
 end
 
