@@ -215,7 +215,10 @@ local optional = {cache = true, goal = true, reason = true}
 
 function Cco.__index(self, key)
   if Cco[key] then return Cco[key] end
-  if getters[key] then return getters[key](self) end
+  if getters[key] then
+    local value = getters[key](self) -- no tail call: errors count the levels
+    return value
+  end
   if optional[key] then return nil end
   local names = {"step", "grow", "run", "engine", "domain"}
   for i, name in ipairs(self.names) do

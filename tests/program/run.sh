@@ -739,6 +739,28 @@ else
   skip "a decimal comma" "no such locale, and localedef cannot make one"
 fi
 
+# ---------------------------------------------------------------- an organ that is full before its tree is whole
+
+script full <<'EOF'
+local venule = require "venule"
+local p = venule.param {{"terminals", 500}, {"viscosity", 3.6e-3}, {"take", false}}
+local tree = venule.cco {terminals = p.terminals, perfusion = 200, viscosity = p.viscosity, seed = p.seed}
+local whole, why = tree:run()
+if p.take then venule.shortfall(nil) end
+venule.result {network = tree.network}
+EOF
+"$program" run full.lua --seed 3 -o "$to/full.xml" -o "$to/full.json" >"$work/out" 2>"$work/err"
+if [ $? -eq 3 ]; then ok "a full organ: exit 3"; else bad "a full organ: exit 3" "$(head -c 300 "$work/err")"; fi
+says "a full organ: what was written" full.xml
+holds "a full organ: why" "$work/err" "note: cco: no place for terminal "
+holds "a full organ: how many" "$work/err" " of 500 terminals found a place; what there is was written"
+holds "a full organ: the tree as GXL, with resistances" "$to/full.xml" resistance
+holds "a full organ: the tree as JSON" "$to/full.json" '"flow"'
+"$program" run full.lua --seed 3 --quiet -o "$to/full.json" >"$work/out" 2>"$work/err"
+if [ $? -eq 3 ] && [ "$(wc -l <"$work/err")" -eq 1 ]; then ok "a full organ, quietly"; else bad "a full organ, quietly" "$(head -c 300 "$work/err")"; fi
+expect "a full organ that the script is content with" 0 "" "$program" run full.lua --seed 3 --set take=true --quiet -o "$to/full.json"
+expect "an organ with room" 0 "" "$program" run full.lua --set terminals=5 -o "$to/some.json"
+
 if [ -n "$(find "$work" -name '*.part')" ]; then bad "no part anywhere" "$(find "$work" -name '*.part')"; else ok "no part anywhere"; fi
 echo "$checks checks, $failures failed"
 [ $failures -eq 0 ]
