@@ -12,13 +12,16 @@ local p = venule.param {
   {"exponent", 3.0, min = 1, max = 100, help = "γ: r^γ adds up where vessels part"},
   {"viscosity", 3.6e-3, min = 1e-6, max = 10, unit = "Pa·s", help = "of the blood"},
   {"border_distance", 0.0, min = 0, max = 1000, unit = "mm", help = "that vessels keep from the border"},
+  {"root", "", help = "x,y in mm, where blood enters; left out: the top"},
   {"discs", false, help = "draw the disc that each terminal feeds"},
   {"size", 1600, min = 50, max = 16000, unit = "pixels", help = "of the picture's sides"},
 }
 
+local x, y = p.root:match "^([^,]+),([^,]+)$"
 local tree = venule.cco {
-  terminals = p.terminals, perfusion = p.perfusion, square = p.square, inflow = p.inflow * 1000 / 60, exponent = p.exponent,
-  viscosity = p.viscosity, border_distance = p.border_distance, seed = p.seed,
+  root = x and {tonumber(x), tonumber(y)} or nil, terminals = p.terminals, perfusion = p.perfusion, square = p.square,
+  inflow = p.inflow * 1000 / 60, exponent = p.exponent, viscosity = p.viscosity, border_distance = p.border_distance,
+  seed = p.seed,
 }
 tree:run {progress = true}
 local arteries = tree.network

@@ -12,7 +12,7 @@ local p = venule.param {
   {"exponent", 3.0, min = 1, max = 100, help = "γ: r^γ adds up where vessels part"},
   {"viscosity", 3.6e-3, min = 1e-6, max = 10, unit = "Pa·s", help = "of the blood"},
   {"border_distance", 0.0, min = 0, max = 1000, unit = "mm", help = "that vessels keep from the border"},
-  {"root", "", help = "x,y or x,y,z in mm; left out: the border's point nearest to the top"},
+  {"root", "", help = "x,y or x,y,z in mm; left out: the border's point nearest to the middle, where organs are hollow"},
   {"component", "one", choices = {"one", "largest", "all"}, help = "what of a mask in several parts"},
   {"size", 1400, min = 50, max = 16000, unit = "pixels", help = "width of the picture"},
 }
@@ -25,22 +25,24 @@ local function organ_of(path)
   return venule.domain.image(path, {component = p.component, pixel = math.sqrt(p.perfusion / pixels)})
 end
 
-local function point(text)
-  local list = {}
-  for number in text:gmatch "[^,%s]+" do list[#list + 1] = tonumber(number) end
-  return #list > 0 and list or nil
+local organ = organ_of(p.mask)
+local bounds, root = organ:bounds(), {}
+for number in p.root:gmatch "[^,%s]+" do root[#root + 1] = tonumber(number) end
+if #root == 0 then
+  for k = 1, organ.dim do root[k] = (bounds.min[k] + bounds.max[k]) / 2 end
+  root = {organ:closest(table.unpack(root))}
 end
 
-local organ = organ_of(p.mask)
 local tree = venule.cco {
-  domain = organ, root = point(p.root), terminals = p.terminals, inflow = p.inflow * 1000 / 60, exponent = p.exponent,
+  domain = organ, root = root, terminals = p.terminals, inflow = p.inflow * 1000 / 60, exponent = p.exponent,
   viscosity = p.viscosity, border_distance = p.border_distance, seed = p.seed,
+  spacing = 0.5, -- the first terminals need not lie far apart: straight lines soon leave what is not convex
 }
 tree:run {progress = true}
 
 venule.result {
-  network = tree.network, view = organ:bounds(), width = p.size, background = "#ffffff",
-  camera = organ.dim == 3 and {fog = 0.6} or nil,
+  network = tree.network, view = bounds, width = p.size, background = "#ffffff",
+  margin = p.size / 40, camera = organ.dim == 3 and {fog = 0.5, zoom = 1.3} or nil,
   picture = function(page)
     if organ.dim == 2 then page:fill(organ, {color = "#fdf3ef", stroke = "#b08a80"}) end
     page:stroke(tree.network, {color = "#b3201c", min_width = 0.5})

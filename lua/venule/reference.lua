@@ -11,6 +11,9 @@ local functions = {
     "Say something about the run that the user should know, on stderr."},
   {name = "tell_stall", owner = "venule", arguments = "", types = {}, doc =
     "Say on stderr, once, why the last `extend` added nothing although attractors are left; `result` and `run` do it too."},
+  {name = "shortfall", owner = "venule", arguments = "text", types = {["text?"] = "string"}, doc =
+    "Say that the results will be less than what was asked for: `result` writes them, and then the run ends with this text and exit "
+    .. "status 3. nil takes it back. `run` of venule.cco{…} says it of an organ that is full too early."},
   {name = "result", owner = "venule", arguments = "options", types = {options = "venule.result.Options"}, rows = "result", doc =
     "Hand over what came out: each `-o` is written by its extension (.svg, .png, .pdf, .eps: the picture; .json: the networks); "
     .. "without one, a file called after the script."},
@@ -26,6 +29,13 @@ local functions = {
     rows = "brochidodromous", returns = "{network: venule.Network, arches: integer}", doc =
     "A midvein and secondaries that are joined in arches within the margin (Ficus, Eucalyptus), as a network to go on from: "
     .. "scripts/brochidodromous.lua fills it by venule.venation."},
+  {name = "cco", owner = "venule", arguments = "options", types = {options = "venule.cco.Options"}, rows = "cco",
+    returns = "venule.CcoSystem", doc =
+    "Arterial trees by constrained constructive optimisation (Kerautret et al. 2023), ready to grow. `s:run{progress=}` grows to the end: "
+    .. "s, or where the domain is full before, false and why; `s:step()` adds a terminal to each tree, false when done; `s:grow(n)` adds up "
+    .. "to n, and gives how many came in all. `s.network` is the tree as it is now, with radius, flow and pressure; of several trees, "
+    .. "`s.networks` has all by name, and so has `s.arteries`; `s.report`, `s.volume`, `s.fraction`, `s.done`, `s.domain`. Units are mm, "
+    .. "Pa, mm³/s and Pa·s; 1 mmHg is 133.322 Pa, 1 mL/min is 1000 / 60 mm³/s. What a tree of `trees` and a stage may say is below."},
   {name = "plot", owner = "venule", arguments = "options", types = {options = "venule.plot.Options"}, rows = "plot",
     returns = "venule.Canvas", doc =
     "Numbers as a figure, on a canvas to save or draw on: lines and dots, deviations as bars or bands, plain or logarithmic axes. "
@@ -92,6 +102,10 @@ end
 
 for _, f in ipairs(functions) do write_function(f) end
 
+page[#page + 1] = "\nA tree of venule.cco, one of `trees`:\n"
+write_rows("cco.tree", venule.cco_branch_rows)
+page[#page + 1] = "\nA stage of venule.cco, one of `stages`:\n"
+write_rows("cco.stage", venule.cco_stage_rows)
 page[#page + 1] = "\nAn axis of a plot:\n"
 write_rows("plot.axis", venule.plot_axis_rows)
 page[#page + 1] = "\nA series of a plot:\n"
@@ -109,6 +123,51 @@ end
 for _, f in ipairs(leaf_functions) do write_function(f) end
 
 stubs[#stubs + 1] = [[
+---@class venule.CcoReport
+---@field terminals integer
+---@field wanted integer # of the stage that is under way
+---@field volume number # Σ π r² ℓ
+---@field inflow number
+---@field darts integer # tries for terminals
+---@field redrawn integer # terminals that could not be connected
+---@field tried integer # candidates whose volume was computed
+---@field collapsed integer # whose bifurcation point ran into an end
+---@field short_segments integer # shorter than thick
+---@field outside integer # that left the domain
+---@field crossing integer # that met another vessel
+---@field crowding integer # that would have made an older vessel too thick for its place
+---@field asymmetric integer
+
+---@class venule.CcoSystem
+---@field network venule.Network # of a single tree
+---@field networks table<string, venule.Network>
+---@field report venule.CcoReport|table<string, venule.CcoReport> # of a single tree, or by name
+---@field volume number # of all trees
+---@field fraction number # how much has grown, 0 to 1
+---@field done boolean
+---@field domain venule.Domain
+---@field engine venule.Cco
+---@field [string] venule.Network # each tree by its name
+local CcoSystem = {}
+
+---Add up to n terminals to each tree; how many came in all. Where there is no place for another: nil, why, how many came before.
+---@param n integer
+---@return integer? added
+---@return string? why
+---@return integer? before
+function CcoSystem:grow(n) end
+
+---Add a terminal to each tree; false when done, or false and why.
+---@return boolean more
+---@return string? why
+function CcoSystem:step() end
+
+---Grow to the end; false and why where the domain is full before.
+---@param options? {progress?: boolean|fun(system: venule.CcoSystem)}
+---@return venule.CcoSystem|false
+---@return string? why
+function CcoSystem:run(options) end
+
 ---@class venule.Venation
 ---@field network venule.Network
 ---@field attractors venule.Attractors
