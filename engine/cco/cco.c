@@ -659,6 +659,9 @@ static vn_status take_turns(vn_cco *cco, int64_t goal) {
         if (g->terminals < g->wanted && g->terminals < goal) {
             VN_TRY(cco->def.list != NULL ? add_listed(cco, g) : add_random(cco, g, tree));
         }
+        if (g->terminals >= g->wanted) {
+            vn_darts_free(&g->darts); // a stage begins with new ones
+        }
     }
     return vn_poll();
 }

@@ -251,7 +251,7 @@ static vn_status check_columns(const vn_network_columns *columns) {
 }
 
 static vn_status copy_columns(vn_network *network, const vn_network_columns *columns) {
-    VN_TRY(vn_network_reserve(network, columns->count));
+    VN_TRY(vn_network_allot(network, columns->count));
     for (int32_t i = 0; i < columns->count; i++) {
         network->x.data[i] = columns->x[i];
         network->y.data[i] = columns->y[i];
@@ -259,31 +259,42 @@ static vn_status copy_columns(vn_network *network, const vn_network_columns *col
             network->z.data[i] = columns->z[i];
         }
         network->parent.data[i] = columns->parent[i];
-        network->first_child.data[i] = -1;
-        network->next_child.data[i] = -1;
-        network->tree.data[i] = -1;
         network->birth.data[i] = columns->birth != NULL ? columns->birth[i] : 0;
-        network->step = network->birth.data[i] > network->step ? network->birth.data[i] : network->step;
     }
-    int32_t count = columns->count;
+    return VN_OK;
+}
+
+vn_status vn_network_allot(vn_network *network, int32_t count) {
+    VN_TRY(vn_network_reserve(network, count));
     network->x.count = network->y.count = network->parent.count = count;
     network->z.count = network->dim == 3 ? count : 0;
     network->first_child.count = network->next_child.count = network->tree.count = network->birth.count =
         count;
+    return VN_OK;
+}
+
+static void hang_children(vn_network *network) {
+    int32_t count = network->x.count;
     for (int32_t i = 0; i < count; i++) {
-        int32_t parent = columns->parent[i];
+        network->first_child.data[i] = -1;
+        network->next_child.data[i] = -1;
+        network->tree.data[i] = -1;
+        network->step = network->birth.data[i] > network->step ? network->birth.data[i] : network->step;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        int32_t parent = network->parent.data[i];
         if (parent >= 0) {
             network->next_child.data[i] = network->first_child.data[parent];
             network->first_child.data[parent] = i;
         }
     }
-    return VN_OK;
 }
 
 // Nodes that a circle of parents keeps out of reach of every root are missed: then it is no forest.
-static vn_status find_sequence(vn_network *network) {
+vn_status vn_network_hang(vn_network *network) {
     int32_t count = network->x.count;
     bool sorted = true;
+    hang_children(network);
     VN_TRY(vn_array_reserve(&network->sequence, count));
     for (int32_t i = 0; i < count; i++) {
         sorted = sorted && network->parent.data[i] < i;
@@ -330,7 +341,7 @@ vn_status vn_network_from_columns(vn_network **out, const vn_network_columns *co
     vn_network *network;
     VN_TRY(vn_network_create(&network, &def));
     vn_status status = copy_columns(network, columns);
-    status = status == VN_OK ? find_sequence(network) : status;
+    status = status == VN_OK ? vn_network_hang(network) : status;
     if (status == VN_OK && columns->radius != NULL && columns->count > 0) {
         status = vn_network_set_radii(network, columns->radius);
     }

@@ -173,6 +173,11 @@ typedef struct vn_network_columns {
     const int32_t *birth;  ///< may be NULL
     const char *unit;
 } vn_network_columns;
+/// For those that fill the columns of an empty network themselves: make it @p count nodes, whose places,
+/// parents and births are then to be written; and, once they are, hang what has a parent below it. VN_INVALID
+/// for parents that run in a circle.
+vn_status vn_network_allot(vn_network *network, int32_t count);
+vn_status vn_network_hang(vn_network *network);
 /// VN_INVALID for parents that do not exist or form a circle, and for numbers that are not finite.
 vn_status vn_network_from_columns(vn_network **out, const vn_network_columns *columns);
 
