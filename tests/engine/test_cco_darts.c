@@ -158,6 +158,30 @@ static void as_darts_thrown_anywhere(void **state) {
     }
 }
 
+// Also where a cell reaches out of the region by a corner only.
+static void darts_fall_into_the_region(void **state) {
+    (void)state;
+    vn_domain *regions[] = {disk_of(0, 0, 5), holed_polygon(), ball_of(0, 0, 0, 5)};
+    for (int i = 0; i < 3; i++) {
+        vn_rng rng = vn_rng_make(3);
+        vessels v = random_vessels(regions[i], 40, &rng);
+        vn_dart_search search = search_of(&v, 0.7, 0.999, INT32_MAX);
+        vn_darts darts = {0};
+        int32_t outside = 0;
+        assert_ok(vn_darts_init(&darts, vn_domain_dim(regions[i]), regions[i], 0, NULL, NULL, &rng));
+        for (int k = 0; k < 20000; k++) {
+            double p[3];
+            int64_t thrown = 0;
+            assert_ok(vn_darts_throw(&darts, &search, &rng, p, &thrown));
+            outside += !vn_domain_contains(regions[i], p);
+        }
+        print_message("%d of 20000 darts fell outside\n", outside);
+        assert_int_equal(outside, 0);
+        vn_darts_free(&darts);
+        vn_domain_release(regions[i]);
+    }
+}
+
 // ---- Bounds ----
 
 // The leaf that a point lies in.
@@ -271,11 +295,17 @@ static void bounds_hold_in_trees(void **state) {
     check_tree_bounds(3, VN_PLACE_SEGMENTS);
 }
 
+static void bounds_hold_between_terminals(void **state) {
+    (void)state;
+    check_tree_bounds(2, VN_PLACE_TERMINALS);
+    check_tree_bounds(3, VN_PLACE_TERMINALS);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        counted_test(as_darts_thrown_anywhere),
-        counted_test(bounds_hold_while_vessels_move),
-        counted_test(bounds_hold_in_trees),
+        counted_test(as_darts_thrown_anywhere),       counted_test(darts_fall_into_the_region),
+        counted_test(bounds_hold_while_vessels_move), counted_test(bounds_hold_in_trees),
+        counted_test(bounds_hold_between_terminals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,30 @@ static void lists(void **state) {
     vn_domain_release(disk);
 }
 
+// A list of none, and a terminal at the root itself.
+static void empty_lists(void **state) {
+    (void)state;
+    vn_domain *disk = disk_of(0, 0, 10);
+    const double root[] = {1, 2, 0};
+    vn_cco_def def = organ_def(disk);
+    vn_cco_tree_def one = vn_cco_tree_def_default();
+    int32_t added;
+    vn_cco *cco;
+    def.list = root;
+    def.list_count = 1;
+    assert_ok(vn_cco_create(&cco, &def));
+    one.root[0] = 1;
+    one.root[1] = 2;
+    add_tree(cco, &one);
+    assert_int_equal(vn_cco_grow(cco, 1, &added), VN_INFEASIBLE);
+    vn_cco_destroy(cco);
+    def.list_count = 0;
+    check_def(&def, VN_INVALID, "cco.terminals");
+    def.list_count = -1;
+    check_def(&def, VN_INVALID, "cco.terminals");
+    vn_domain_release(disk);
+}
+
 static void check_tree_def(vn_cco *cco, const vn_cco_tree_def *def, vn_status status, const char *message) {
     int32_t tree;
     assert_int_equal(vn_cco_add(cco, def, &tree), status);
@@ -240,6 +264,43 @@ static void callbacks(void **state) {
     vn_domain_release(disk);
 }
 
+static vn_status until_told(double *value, const double p[3], void *payload) {
+    (void)p;
+    *value = 1;
+    return *(const bool *)payload ? vn_fail(VN_CALLBACK, "no more") : VN_OK;
+}
+
+// What a stage that fails leaves behind can still be grown in: the part before, which only the organ holds.
+static void a_stage_that_fails(void **state) {
+    (void)state;
+    vn_domain *disk = disk_of(0, 0, 10), *upper = box_of(-10, 0, 10, 10), *lower = box_of(-10, -10, 10, 0);
+    bool fail = false;
+    vn_cco_def def = organ_def(disk);
+    vn_cco_tree_def one = vn_cco_tree_def_default();
+    int32_t added;
+    vn_cco *cco;
+    def.density = until_told;
+    def.density_payload = &fail;
+    def.spacing = 0.3;
+    one.inflow = 0.1;
+    assert_ok(vn_cco_create(&cco, &def));
+    one.root[1] = 10;
+    add_tree(cco, &one);
+    one.root[0] = 2;
+    one.root[1] = 9.7;
+    add_tree(cco, &one);
+    assert_ok(vn_cco_stage(cco, upper, 2));
+    vn_domain_release(upper);
+    assert_ok(vn_cco_grow(cco, 1, &added));
+    fail = true;
+    assert_int_equal(vn_cco_stage(cco, lower, 4), VN_CALLBACK);
+    fail = false;
+    assert_ok(vn_cco_grow(cco, 1, &added));
+    vn_cco_destroy(cco);
+    vn_domain_release(lower);
+    vn_domain_release(disk);
+}
+
 static void an_organ_too_small(void **state) {
     (void)state;
     vn_domain *domains[] = {disk_of(0, 0, 5), ball_of(0, 0, 0, 2)};
@@ -318,10 +379,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         counted_test(organs),
         counted_test(lists),
+        counted_test(empty_lists),
         counted_test(trees),
         counted_test(roots_in_vessels),
         counted_test(networks),
         counted_test(callbacks),
+        counted_test(a_stage_that_fails),
         counted_test(an_organ_too_small),
         counted_test(memory_runs_out),
     };
