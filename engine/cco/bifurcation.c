@@ -226,8 +226,8 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
 // Estimates are linear from where the flow is this many times that of the terminal.
 static const double LINEAR_FROM = 24;
 
-bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
-                          double tolerance, int rounds, double x[2], vn_effect *effect) {
+static bool least_from(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                       double tolerance, int rounds, double x[2], vn_effect *effect) {
     double size = t->distal + t->across[1];
     for (int i = 0;; i++) {
         vn_branch branches[3];
@@ -248,4 +248,16 @@ bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t no
             return true;
         }
     }
+}
+
+// A new vessel of no length has no resistance, so both ends of thin vessels are minima as well: a way that
+// runs into one is no proof that there is none inside, and another start, near Equation 8's, may find it.
+bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                          double tolerance, int rounds, double x[2], vn_effect *effect) {
+    if (least_from(tree, adjoints, node, t, tolerance, rounds, x, effect)) {
+        return true;
+    }
+    x[0] = t->distal / 2;
+    x[1] = t->across[1] / 4;
+    return least_from(tree, adjoints, node, t, tolerance, rounds, x, effect);
 }

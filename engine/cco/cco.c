@@ -111,7 +111,18 @@ static vn_status check_domain(const vn_domain *domain) {
     return vn_domain_measure(domain) > 0 ? VN_OK : vn_fail(VN_INFEASIBLE, "cco.domain has nothing inside");
 }
 
+static vn_status check_choices(const vn_cco_def *def) {
+    if (def->placement < 0 || def->placement > 1 || def->bifurcation < 0 || def->bifurcation > 2) {
+        return vn_fail(VN_INVALID, "cco.placement = %d must be 0 or 1, and cco.bifurcation = %d 0, 1 or 2",
+                       def->placement, def->bifurcation);
+    }
+    return VN_OK;
+}
+
 static vn_status check_list(const vn_cco_def *def) {
+    if (def->list_count < 1) {
+        return vn_fail(VN_INVALID, "cco.terminals: a list of %d points; it needs 1 or more", def->list_count);
+    }
     for (int32_t i = 0; i < def->list_count; i++) {
         const double *p = &def->list[3 * (size_t)i];
         if (!vn_finite(p) || !vn_domain_contains(def->domain, p)) {
@@ -125,6 +136,7 @@ static vn_status check_list(const vn_cco_def *def) {
 vn_status vn_cco_create(vn_cco **out, const vn_cco_def *def) {
     *out = NULL;
     VN_TRY(vn_check_def(&vn_cco_schema, def));
+    VN_TRY(check_choices(def));
     VN_TRY(check_domain(def->domain));
     VN_TRY(def->list != NULL ? check_list(def) : VN_OK);
     vn_cco *cco = VN_NEW(vn_cco);
@@ -200,7 +212,7 @@ static vn_status add_exponent(vn_tree *tree, double flow, double exponent) {
 }
 
 static vn_status set_exponents(vn_tree *tree, const vn_cco_tree_def *def) {
-    if (def->exponent_count == 0) {
+    if (def->exponent_count <= 0) {
         return add_exponent(tree, 1, def->exponent);
     }
     for (int32_t i = 0; i < def->exponent_count; i++) {
@@ -214,10 +226,11 @@ static vn_status flow_at(const vn_grower *g, const double p[3], double *flow) {
     VN_TRY(g->flow != NULL ? g->flow(&factor, p, g->flow_payload) : VN_OK);
     *flow = g->terminal_flow * factor;
     if (!(*flow > 0 && *flow <= 1e150)) {
-        return vn_fail(VN_INVALID,
-                       "cco.flow: a terminal at (%g, %g, %g) would have the flow %g mm³/s; it must be "
-                       "above 0",
-                       p[0], p[1], p[2], *flow);
+        return vn_fail(
+            VN_INVALID,
+            "cco.terminal_flow: a terminal at (%g, %g, %g) would have the flow %g mm³/s; it must be "
+            "above 0",
+            p[0], p[1], p[2], *flow);
     }
     return VN_OK;
 }
@@ -340,15 +353,19 @@ static void set_caps(const vn_cco *cco, vn_grower *g, const vn_network *network)
     }
 }
 
-static vn_status start_darts(vn_cco *cco, vn_grower *g, int32_t tree) {
+static vn_status make_darts(const vn_cco *cco, const vn_grower *g, int32_t tree, const vn_domain *part,
+                            vn_darts *darts) {
     if (cco->def.list != NULL) {
         return VN_OK;
     }
     vn_rng rng = {.seed = (uint64_t)cco->def.seed,
                   .stream = vn_hash(2, (uint64_t)tree, (uint64_t)g->draws, 0)};
-    double last = cco->def.spacing * pow(vn_domain_measure(cco->part) / g->wanted, 1.0 / cco->dim);
-    return vn_darts_init(&g->darts, cco->dim, cco->part, 0.3 * last, cco->def.density,
-                         cco->def.density_payload, &rng);
+    double last = cco->def.spacing * pow(vn_domain_measure(part) / g->wanted, 1.0 / cco->dim);
+    return vn_darts_init(darts, cco->dim, part, 0.3 * last, cco->def.density, cco->def.density_payload, &rng);
+}
+
+static vn_status start_darts(const vn_cco *cco, vn_grower *g, int32_t tree) {
+    return make_darts(cco, g, tree, cco->part, &g->darts);
 }
 
 static vn_status fill_tree(vn_cco *cco, vn_grower *g, const vn_cco_tree_def *def, int32_t tree) {
@@ -466,7 +483,44 @@ bool vn_cco_done(const vn_cco *cco) {
     return true;
 }
 
+/// New darts, one of each tree.
+typedef VN_ARRAY(vn_darts) darts_array;
+
+static vn_status make_all_darts(const vn_cco *cco, const vn_domain *part, darts_array *darts) {
+    for (int32_t i = 0; i < vn_cco_tree_count(cco); i++) {
+        VN_TRY(vn_array_push(darts, ((vn_darts){0})));
+        VN_TRY(make_darts(cco, vn_cco_tree_at(cco, i), i, part, &darts->data[i]));
+    }
+    return VN_OK;
+}
+
+// All trees change to the part, or none.
+static vn_status change_part(vn_cco *cco, const vn_domain *part, int32_t terminals) {
+    darts_array fresh = {0};
+    vn_status status = make_all_darts(cco, part, &fresh);
+    for (int32_t i = 0; i < fresh.count; i++) {
+        vn_grower *g = vn_cco_tree_at(cco, i);
+        vn_darts old = status == VN_OK ? g->darts : fresh.data[i];
+        if (status == VN_OK) {
+            g->darts = fresh.data[i];
+            g->stage_start = g->terminals;
+            g->wanted = g->terminals + terminals;
+        }
+        vn_darts_free(&old);
+    }
+    vn_array_free(&fresh);
+    if (status == VN_OK) {
+        vn_domain *before = cco->part;
+        cco->part = vn_domain_retain(part);
+        vn_domain_release(before);
+    }
+    return status;
+}
+
 vn_status vn_cco_stage(vn_cco *cco, vn_domain *part, int32_t terminals) {
+    if (vn_cco_tree_count(cco) == 0) {
+        return vn_fail(VN_INVALID, "cco.stage: add the trees first");
+    }
     if (cco->def.list != NULL || terminals < 1) {
         return vn_fail(VN_INVALID, "cco.stage: %s",
                        terminals < 1 ? "it needs 1 terminal or more" : "the terminals are a list already");
@@ -485,16 +539,7 @@ vn_status vn_cco_stage(vn_cco *cco, vn_domain *part, int32_t terminals) {
                 terminals, g->terminals, cco->def.terminals);
         }
     }
-    vn_domain *old = cco->part;
-    cco->part = vn_domain_retain(part != NULL ? part : cco->def.domain);
-    vn_domain_release(old);
-    for (int32_t i = 0; i < vn_cco_tree_count(cco); i++) {
-        vn_grower *g = vn_cco_tree_at(cco, i);
-        g->stage_start = g->terminals;
-        g->wanted = g->terminals + terminals;
-        VN_TRY(start_darts(cco, g, i));
-    }
-    return VN_OK;
+    return change_part(cco, part != NULL ? part : cco->def.domain, terminals);
 }
 
 /// One terminal that is looked for.
@@ -594,7 +639,11 @@ static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
     for (int32_t i = 0; i <= cco->def.redraws; i++) {
         double p[3], flow;
         bool done;
-        VN_TRY(draw_terminal(cco, g, tree, i, p));
+        vn_status found = draw_terminal(cco, g, tree, i, p);
+        if (found == VN_INFEASIBLE) {
+            break;
+        }
+        VN_TRY(found);
         VN_TRY(flow_at(g, p, &flow));
         cco->patient = i < cco->def.redraws / 4 && cco->def.foresight > 0;
         VN_TRY(vn_connect(cco, g, p, flow, &done));

@@ -24,7 +24,6 @@ typedef struct vn_candidate {
     int32_t node; ///< whose segment
     double x[2];  ///< the bifurcation, in the triangle's plane
     vn_effect effect;
-    bool measured; ///< the effect is exact at x
     bool refined;  ///< x is the point of least volume to the last digit
     vn_triangle triangle;
 } vn_candidate;
@@ -108,9 +107,9 @@ void vn_places_remove(vn_grower *g, int32_t node);
 /// Set a segment's cap; slack is to be settled by the caller.
 vn_status vn_places_set_cap(vn_grower *g, int32_t node, double cap);
 typedef enum vn_seek {
-    VN_SEEK_AXIS,     ///< of any vessel; a root that has none yet counts
-    VN_SEEK_SEGMENT,  ///< roots do not count
-    VN_SEEK_TERMINAL, ///< and a root that has none yet
+    VN_SEEK_AXIS,    ///< of any vessel; a root that has none yet counts
+    VN_SEEK_SEGMENT, ///< roots do not count
+    VN_SEEK_TERMINAL,
 } vn_seek;
 /// The distance from @p p to the nearest, and its node; INFINITY and -1 when there is none.
 double vn_places_seek(const vn_grower *g, const double p[3], vn_seek seek, int32_t *node);

@@ -113,13 +113,13 @@ static void count_refusal(vn_grower *g, vn_verdict verdict) {
 }
 
 // Lengths alone tell of most candidates that they are too short, before anybody looks around.
-static bool is_short(const vn_grower *g, const vn_plan *plan, double doubt) {
+static bool is_short(const vn_grower *g, const vn_plan *plan) {
     const double *distal = vn_vessel_of(g, plan->node)->p, *start = vn_vessel_of(g, plan->upper)->p;
     double lengths[3] = {sqrt(vn_distance2(start, plan->x)), sqrt(vn_distance2(plan->x, distal)),
                          sqrt(vn_distance2(plan->x, plan->terminal))};
     for (int i = 0; i < 3; i++) {
         bool given = i == 1 && plan->node < g->given;
-        if (!given && 2 * plan->radius[i] * (1 - doubt) > lengths[i]) {
+        if (!given && 2 * plan->radius[i] > lengths[i]) {
             return true;
         }
     }
@@ -127,7 +127,7 @@ static bool is_short(const vn_grower *g, const vn_plan *plan, double doubt) {
 }
 
 static vn_status judge_once(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict) {
-    *verdict = is_short(g, plan, 0) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
+    *verdict = is_short(g, plan) ? VN_SHORT : is_uneven(g, plan) ? VN_ASYMMETRIC : VN_ALLOWED;
     return *verdict == VN_ALLOWED ? vn_rules_judge(cco, g, plan, verdict) : VN_OK;
 }
 
@@ -143,8 +143,14 @@ static vn_status insert_all(vn_grower *g, const int32_t *nodes, const double *ca
 }
 
 // Long vessels are cut again and again, and hardly bend: it is told only when it has come to something.
-static vn_status tell_darts(vn_grower *g, const int32_t *nodes, int count, double moved) {
+static vn_status tell_darts(vn_grower *g, bool terminals, const int32_t *nodes, int count, double moved) {
     double ends[3][2][3];
+    if (terminals) { // these do not move
+        const double *p = vn_vessel_of(g, nodes[count - 1])->p;
+        memcpy(ends[0][0], p, sizeof ends[0][0]);
+        memcpy(ends[0][1], p, sizeof ends[0][1]);
+        return vn_darts_tell(&g->darts, (const double(*)[2][3])ends, 1, 0);
+    }
     if (moved <= g->darts.tolerance) {
         nodes += count - 1;
         count = 1;
@@ -158,17 +164,17 @@ static vn_status tell_darts(vn_grower *g, const int32_t *nodes, int count, doubl
     return vn_darts_tell(&g->darts, (const double(*)[2][3])ends, count, moved);
 }
 
-static vn_status grow_first(vn_grower *g, const vn_plan *plan, double flow) {
+static vn_status grow_first(const vn_cco *cco, vn_grower *g, const vn_plan *plan, double flow) {
     int32_t node;
     VN_TRY(vn_tree_push(&g->tree, plan->upper, plan->terminal, &node));
     vn_vessel_of(g, node)->flow = flow;
     vn_tree_update(&g->tree, node);
     g->terminals++;
     VN_TRY(insert_all(g, &node, &plan->caps[2], 1));
-    return tell_darts(g, &node, 1, 0);
+    return tell_darts(g, cco->def.placement == VN_PLACE_TERMINALS, &node, 1, 0);
 }
 
-static vn_status grow_fork(vn_grower *g, const vn_plan *plan, double flow) {
+static vn_status grow_fork(const vn_cco *cco, vn_grower *g, const vn_plan *plan, double flow) {
     int32_t middle, leaf;
     VN_TRY(vn_array_reserve(&g->tree.vessels, (int64_t)g->tree.vessels.count + 2));
     const double *start = vn_vessel_of(g, plan->upper)->p, *end = vn_vessel_of(g, plan->node)->p;
@@ -184,7 +190,7 @@ static vn_status grow_fork(vn_grower *g, const vn_plan *plan, double flow) {
     vn_vessel_of(g, middle)->bent = vn_vessel_of(g, plan->node)->bent = bent;
     int32_t nodes[3] = {middle, plan->node, leaf};
     VN_TRY(insert_all(g, nodes, plan->caps, 3));
-    return tell_darts(g, nodes, 3, moved);
+    return tell_darts(g, cco->def.placement == VN_PLACE_TERMINALS, nodes, 3, moved);
 }
 
 static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const double terminal[3], double flow,
@@ -201,17 +207,16 @@ static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const do
         count_refusal(g, verdict);
         return VN_OK;
     }
-    return grow_first(g, &plan, flow);
+    return grow_first(cco, g, &plan, flow);
 }
 
 // The exact volume at the point as it is known so far.
 static void measure(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
     vn_branch branches[3];
-    if (!c->measured && cco->def.bifurcation == VN_BIFURCATE_LEAST) {
+    if (cco->def.bifurcation == VN_BIFURCATE_LEAST) {
         vn_triangle_branches(&c->triangle, c->x, branches);
         c->effect = vn_tree_effect(&g->tree, c->node, &branches[0]);
     }
-    c->measured = true;
 }
 
 // In the order of their volumes: exactly among those that may be best, by the estimates among the rest.
@@ -233,21 +238,17 @@ static vn_status try_candidate(vn_cco *cco, vn_grower *g, vn_candidate *c, const
                                double flow, bool *done) {
     vn_plan plan;
     vn_verdict verdict = VN_SHORT;
-    measure(cco, g, c);
-    make_plan(cco, g, c, terminal, &plan);
-    if (!is_short(g, &plan, 0.01)) { // at the point as it is roughly known
-        refine(cco, g, c);
-        if (c->effect.volume < INFINITY) {
-            make_plan(cco, g, c, terminal, &plan);
-            VN_TRY(judge_once(cco, g, &plan, &verdict));
-        }
+    refine(cco, g, c); // what is short at the rough point need not be at the fine one
+    if (c->effect.volume < INFINITY) {
+        make_plan(cco, g, c, terminal, &plan);
+        VN_TRY(judge_once(cco, g, &plan, &verdict));
     }
     if (verdict != VN_ALLOWED) {
         count_refusal(g, verdict);
         return VN_OK;
     }
     *done = true;
-    return grow_fork(g, &plan, flow);
+    return grow_fork(cco, g, &plan, flow);
 }
 
 // The best of the candidates that keeps the rules, if any: at first with room to thicken.

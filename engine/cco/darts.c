@@ -151,8 +151,9 @@ static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) 
         VN_TRY(density_at(darts, p, &density));
         sum += density;
     }
-    sum = fmax(sum, 0.5); // something may be there that was missed
-    *mass = (float)(sum / (across * across * deep));
+    int32_t all = across * across * deep;
+    sum = fmin(fmax(sum, 0.5), all - 0.5); // something may be there that was missed, or not be all there
+    *mass = (float)(sum / all);
     return VN_OK;
 }
 

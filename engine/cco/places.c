@@ -95,8 +95,7 @@ typedef struct look {
 static bool look_at(int32_t node, void *payload) {
     look *l = payload;
     const vn_vessel *v = vn_vessel_of(l->g, node);
-    if ((l->seek == VN_SEEK_TERMINAL && v->first_child >= 0) ||
-        (l->seek == VN_SEEK_SEGMENT && v->parent < 0)) {
+    if ((l->seek == VN_SEEK_TERMINAL && v->first_child >= 0) || (l->seek != VN_SEEK_AXIS && v->parent < 0)) {
         return true;
     }
     double distance2 = l->seek == VN_SEEK_TERMINAL

@@ -55,16 +55,17 @@ static bool is_obstacle(const tube *t, int32_t node) {
     return node != t->node && node != t->cut && !is_at(v, node, t->ends[0]) && !is_at(v, node, t->ends[1]);
 }
 
-static double radius_now(const vn_cco *cco, const vn_grower *g, int32_t node) {
-    return g->fixed ? vn_vessel_of(g, node)->cap
-                    : vn_cco_inflate(cco, g->terminals) * vn_tree_radius(&g->tree, node);
+// Of the tree that grows, as it will be once it has a terminal more: sizes fall a little with each.
+static double radius_of(const tube *t, const vn_grower *g, int32_t node) {
+    int32_t terminals = g->terminals + (g == t->g);
+    return vn_cco_inflate(t->cco, terminals) * vn_tree_radius(&g->tree, node);
 }
 
 // Whether the other vessel can do with a cap of @p left. What it loses is taken once everybody has agreed:
 // the cells that are being looked through hold it.
 static bool can_squeeze(tube *t, int32_t node, double left) {
     double wide = (1 + 2e-7) * foresight(t->cco, t->other, vn_vessel_of(t->other, node)->flow);
-    if (t->other->fixed || wide * radius_now(t->cco, t->other, node) > left) {
+    if (t->other->fixed || wide * radius_of(t, t->other, node) > left) {
         return false;
     }
     t->status = vn_array_push(&t->cco->squeezes, ((vn_squeeze){t->other, node, left}));
@@ -148,7 +149,7 @@ static bool is_inside(tube *t, bool stem) {
 // were there before may be short and lie where they do.
 static vn_verdict judge_tube(tube *t, double length, bool stem, bool given) {
     t->room = given ? RESERVE * t->radius : fmin(RESERVE * t->radius, length / 2);
-    if (t->room < t->radius) {
+    if (t->room < t->radius || !(length > 0)) {
         return VN_SHORT;
     }
     if (!given && !is_inside(t, stem)) {

@@ -199,6 +199,11 @@ static void networks(void **state) {
     put_child(n, put_child(n, put_root(n, 0, 0, 0), 1, 0, 0), 1, 1, 0);
     assert_ok(vn_network_join(n, 0, 2, 0.1));
     check_from(cco, n, "cco.from has 1 joins");
+    assert_int_equal(vn_cco_stage(cco, NULL, 5), VN_INVALID);
+    assert_message("add the trees first");
+    vn_cco_tree_def one = vn_cco_tree_def_default();
+    one.root[1] = 10;
+    add_tree(cco, &one);
     assert_int_equal(vn_cco_stage(cco, ball, 5), VN_INVALID);
     assert_message("the part has 3 dimensions, and the domain 2");
     assert_int_equal(vn_cco_stage(cco, NULL, 0), VN_INVALID);
@@ -257,7 +262,7 @@ static void callbacks(void **state) {
         assert_ok(vn_cco_create(&cco, &def));
         add_tree(cco, &one);
         assert_int_equal(vn_cco_grow(cco, 1, &added), i < 4 ? VN_INVALID : VN_CALLBACK);
-        assert_message(i < 4 ? "cco.flow: a terminal at (" : "nobody knows");
+        assert_message(i < 4 ? "cco.terminal_flow: a terminal at (" : "nobody knows");
         assert_int_equal(added, 0);
         vn_cco_destroy(cco);
     }
