@@ -346,15 +346,14 @@ static void push_choices(lua_State *L, const char *choices) {
 
 static void push_default(lua_State *L, const vn_schema *schema, const vn_field *field) {
     const void *slot = (const char *)schema->defaults + field->offset;
-    if (field->flags & (VN_OPTIONAL | VN_REQUIRED)) {
-        lua_pushnil(L);
-    } else if (field->type == VN_F64) {
+    bool given = (field->flags & (VN_OPTIONAL | VN_REQUIRED)) == 0;
+    if (given && field->type == VN_F64) {
         lua_pushnumber(L, *(const double *)slot);
-    } else if (is_number(field)) {
+    } else if (given && is_number(field)) {
         lua_pushinteger(L, (lua_Integer)vn_field_number(field, schema->defaults));
-    } else if (field->type == VN_BOOL) {
+    } else if (given && field->type == VN_BOOL) {
         lua_pushboolean(L, *(const bool *)slot);
-    } else if (field->type == VN_CHOICE) {
+    } else if (given && field->type == VN_CHOICE) {
         push_choices(L, field->kind);
         lua_rawgeti(L, -1, *(const int *)slot + 1);
         lua_remove(L, -2);
