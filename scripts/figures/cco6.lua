@@ -27,6 +27,6 @@ tree:run {progress = true}
 
 venule.result {
   network = tree.network, view = bounds, width = p.size, height = p.size * 0.8 // 1, background = "#ffffff",
-  camera = {from = {middle[1] + 150, middle[2] + 120, middle[3] + 480}, to = middle, fov = 30, zoom = 1.25, fog = 0.75},
+  camera = {from = {middle[1] + 150, middle[2] + 120, middle[3] + 480}, to = middle, fov = 30, zoom = 1.25, fog = p.cut and 0.4 or 0.7},
   picture = function(page) page:stroke(tree.network, {color = "#a81c16", min_width = 0.5}) end,
 }
