@@ -36,7 +36,6 @@ end
 local tree = venule.cco {
   domain = organ, root = root, terminals = p.terminals, inflow = p.inflow * 1000 / 60, exponent = p.exponent,
   viscosity = p.viscosity, border_distance = p.border_distance, seed = p.seed,
-  spacing = 0.5, -- the first terminals need not lie far apart: straight lines soon leave what is not convex
 }
 tree:run {progress = true}
 

@@ -20,7 +20,7 @@ if p.cut then shell = shell * venule.domain.box {min = {low[1] - 1, low[2] - 1, 
 
 local tree = venule.cco {
   domain = shell, terminals = p.terminals, inflow = p.inflow * 1000 / 60, viscosity = p.viscosity, seed = p.seed,
-  spacing = 0.25, -- the first terminals may not lie far apart: a straight line leaves a shell soon
+  spacing = 0.25, -- first terminals that lie far apart are soon beyond the shell's bend: straight lines leave it
   root = {shell:closest(middle[1], middle[2], p.cut and low[3] or middle[3])},
 }
 tree:run {progress = true}

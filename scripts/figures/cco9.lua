@@ -22,12 +22,9 @@ for k = 0, 20 do
   if n <= p.most then counts[#counts + 1] = n end
 end
 
--- Flow makes no difference to the time, but little of it leaves room in any domain: radii go with its fourth root. So do first
--- terminals that need not lie far apart.
+-- Flow makes no difference to the time, but little of it leaves room in any domain: radii go with its fourth root.
 local function seconds(domain, k, name)
-  local tree = venule.cco {
-    dim = not domain and p.dim or nil, domain = domain, terminals = counts[k], inflow = 100, seed = p.seed, spacing = 0.5,
-  }
+  local tree = venule.cco {dim = not domain and p.dim or nil, domain = domain, terminals = counts[k], inflow = 100, seed = p.seed}
   local started = os.clock()
   local whole = tree:run()
   local spent = os.clock() - started

@@ -295,6 +295,27 @@ function testErrors()
   fails(function() venule.cco() end, "cco: a table of options {…} expected, got nil")
 end
 
+function testAMask()
+  local path = os.tmpname() .. ".png"
+  local shape = domain.disk {radius = 50} - domain.box {min = {-10, -60}, max = {10, 20}} -- a horseshoe
+  local page = venule.canvas {width = 220, view = shape:bounds(), background = "black"}
+  page:fill(shape, {color = "white"})
+  page:save(path)
+  local mask = domain.image(path, {pixel = 0.5})
+  os.remove(path)
+  local tree = venule.cco({domain = mask, terminals = 100, inflow = 50}):run()
+  check_tree(tree.network, 100, 50)
+  lu.assertAlmostEquals(tree.network.y[1], mask:bounds().max[2], 1) -- at the top, on the border
+  local net = tree.network
+  for i = 2, #net do
+    local j = net.parent[i]
+    for k = 0, 8 do
+      local x, y = net.x[i] + k / 8 * (net.x[j] - net.x[i]), net.y[i] + k / 8 * (net.y[j] - net.y[i])
+      lu.assertTrue(mask:distance(x, y) > -1e-6)
+    end
+  end
+end
+
 function testAMeshWithAHole()
   local box = {vertices = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {0, 0, 9}, {9, 0, 9}, {9, 9, 9}, {0, 9, 9}},
     faces = {{1, 2, 3, 4}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}}}
