@@ -24,7 +24,7 @@ typedef struct vn_candidate {
     int32_t node; ///< whose segment
     double x[2];  ///< the bifurcation, in the triangle's plane
     vn_effect effect;
-    bool refined;  ///< x is the point of least volume to the last digit
+    bool refined; ///< x is the point of least volume to the last digit
     vn_triangle triangle;
 } vn_candidate;
 

@@ -210,6 +210,10 @@ function venule.note(text) end
 ---Say on stderr, once, why the last `extend` added nothing although attractors are left; `result` and `run` do it too.
 function venule.tell_stall() end
 
+---Say that the results will be less than what was asked for: `result` writes them, and then the run ends with this text and exit status 3. nil takes it back. `run` of venule.cco{…} says it of an organ that is full too early.
+---@param text? string
+function venule.shortfall(text) end
+
 ---@class (exact) venule.result.Options
 ---@field network? any # the network that grew
 ---@field networks? table # several networks by name
@@ -279,6 +283,44 @@ function venule.veinlets(options) end
 ---@return {network: venule.Network, arches: integer}
 function venule.brochidodromous(options) end
 
+---@class (exact) venule.cco.Options
+---@field domain? any # where everything is to lie; left out: by perfusion, square and dim
+---@field terminals? any # how many each tree is to have in the end; or a list {{x, y}, …} of where they are, in their order
+---@field seed? integer # of the random terminals
+---@field placement? "segments"|"terminals" # what a new terminal keeps away from: vessels (section 3.3.2), or terminals and the insides of vessels (Algorithms 2 and 3)
+---@field tries? integer # before the threshold of Equation 15 is lowered; left out: 100, or 1000 with "terminals"
+---@field threshold? number # what the threshold is multiplied by then
+---@field spacing? number # the threshold at first, in units of Equation 15
+---@field candidates? integer # nearest segments that are tried; twice as many while none will do
+---@field most_candidates? integer # but no more than these for one terminal, which is then drawn anew
+---@field redraws? integer # terminals drawn anew before the domain counts as full
+---@field foresight? number # room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + foresight / √m times its share of the flow; left out: 4, and 0 for a list of terminals
+---@field bifurcation? "least"|"kamiya"|"ceres" # the bifurcation point: of least volume; by Equations 8 to 13 alone; or these with the system (12) solved by Ceres
+---@field border_distance? number # that vessels keep from the border
+---@field growing_domain? boolean # sizes hold as if the domain grew with the tree (Equation 14)
+---@field density? any # how dense terminals are at a point, 0 to 1: a function (x, y[, z]), or a domain whose values count
+---@field root? table # where the tree begins, in the domain or on its border; left out: the point of the border nearest to the top of the domain's bounds
+---@field from? any # a tree to grow on from instead: its nodes, not its radii
+---@field inflow? number # of the whole tree at the end, shared by its terminals; 500 mL/min
+---@field terminal_flow? any # of each terminal, in place of inflow; or what a terminal's share of the inflow is multiplied by: a function (x, y[, z]), or a domain whose values count
+---@field viscosity? number # of the blood
+---@field pressure_in? number # where blood enters; 100 mmHg
+---@field pressure_out? number # where it leaves; 60 mmHg
+---@field exponent? any # γ of Equation 4, 1 to 100; left out: 3. Or {{flow, exponent}, …} or function(flow): by the flow that comes to a bifurcation
+---@field symmetry? number # bifurcations whose thinner vessel is below this part of the thicker are refused
+---@field venous? boolean # blood enters at the terminals and leaves at the root
+---@field perfusion? number # area or volume of the domain where none is given: a disk or ball around the origin; left out: 20000
+---@field square? boolean # a square or cube in its place
+---@field dim? integer # its dimensions; left out: 2
+---@field trees? table # several trees that keep clear of each other: a list of {name=, root=, …}; options of a tree that stand outside are for all of them
+---@field avoid? any # a network to keep clear of, as tubes of its radii, or a list of them
+---@field stages? table # growth in parts of the domain, one after the other: a list of {domain=, terminals=}; terminals that are left then fall anywhere
+
+---Arterial trees by constrained constructive optimisation (Kerautret et al. 2023), ready to grow. `s:run{progress=}` grows to the end: s, or where the domain is full before, false and why; `s:step()` adds a terminal to each tree, false when done; `s:grow(n)` adds up to n, and gives how many came in all. `s.network` is the tree as it is now, with radius, flow and pressure; of several trees, `s.networks` has all by name, and so has `s.arteries`; `s.report`, `s.volume`, `s.fraction`, `s.done`, `s.domain`. Units are mm, Pa, mm³/s and Pa·s; 1 mmHg is 133.322 Pa, 1 mL/min is 1000 / 60 mm³/s. What a tree of `trees` and a stage may say is below.
+---@param options venule.cco.Options
+---@return venule.CcoSystem
+function venule.cco(options) end
+
 ---@class (exact) venule.plot.Options
 ---@field width? number # of the whole picture; 96 pixels are an inch on paper
 ---@field height? number # of the whole picture
@@ -293,6 +335,23 @@ function venule.brochidodromous(options) end
 ---@param options venule.plot.Options
 ---@return venule.Canvas
 function venule.plot(options) end
+
+---@class (exact) venule.cco.tree.Options
+---@field name string # what it is called: s.name is its network
+---@field root? table # where the tree begins, in the domain or on its border; left out: the point of the border nearest to the top of the domain's bounds
+---@field from? any # a tree to grow on from instead: its nodes, not its radii
+---@field inflow? number # of the whole tree at the end, shared by its terminals; 500 mL/min
+---@field terminal_flow? any # of each terminal, in place of inflow; or what a terminal's share of the inflow is multiplied by: a function (x, y[, z]), or a domain whose values count
+---@field viscosity? number # of the blood
+---@field pressure_in? number # where blood enters; 100 mmHg
+---@field pressure_out? number # where it leaves; 60 mmHg
+---@field exponent? any # γ of Equation 4, 1 to 100; left out: 3. Or {{flow, exponent}, …} or function(flow): by the flow that comes to a bifurcation
+---@field symmetry? number # bifurcations whose thinner vessel is below this part of the thicker are refused
+---@field venous? boolean # blood enters at the terminals and leaves at the root
+
+---@class (exact) venule.cco.stage.Options
+---@field domain? any # the part that terminals fall into; left out: the whole domain
+---@field terminals integer # how many more each tree is to have then
 
 ---@class (exact) venule.plot.axis.Options
 ---@field label? string # what it measures, and the unit
@@ -469,6 +528,51 @@ function venule.leaf.teeth(points, waves) end
 ---@return number[][]
 function venule.leaf.base(blade, n) end
 
+---@class venule.CcoReport
+---@field terminals integer
+---@field wanted integer # of the stage that is under way
+---@field volume number # Σ π r² ℓ
+---@field inflow number
+---@field darts integer # tries for terminals
+---@field redrawn integer # terminals that could not be connected
+---@field tried integer # candidates whose volume was computed
+---@field collapsed integer # whose bifurcation point ran into an end
+---@field short_segments integer # shorter than thick
+---@field outside integer # that left the domain
+---@field crossing integer # that met another vessel
+---@field crowding integer # that would have made an older vessel too thick for its place
+---@field asymmetric integer
+
+---@class venule.CcoSystem
+---@field network venule.Network # of a single tree
+---@field networks table<string, venule.Network>
+---@field report venule.CcoReport|table<string, venule.CcoReport> # of a single tree, or by name
+---@field volume number # of all trees
+---@field fraction number # how much has grown, 0 to 1
+---@field done boolean
+---@field domain venule.Domain
+---@field engine venule.Cco
+---@field [string] venule.Network # each tree by its name
+local CcoSystem = {}
+
+---Add up to n terminals to each tree; how many came in all. Where there is no place for another: nil, why, how many came before.
+---@param n integer
+---@return integer? added
+---@return string? why
+---@return integer? before
+function CcoSystem:grow(n) end
+
+---Add a terminal to each tree; false when done, or false and why.
+---@return boolean more
+---@return string? why
+function CcoSystem:step() end
+
+---Grow to the end; false and why where the domain is full before.
+---@param options? {progress?: boolean|fun(system: venule.CcoSystem)}
+---@return venule.CcoSystem|false
+---@return string? why
+function CcoSystem:run(options) end
+
 ---@class venule.Venation
 ---@field network venule.Network
 ---@field attractors venule.Attractors
@@ -536,6 +640,29 @@ function venule.domain.profile(options) end
 ---@param options? venule.svg.Options
 ---@return venule.Domain
 function venule.domain.svg(path, options) end
+
+---@class (exact) venule.image.Options
+---@field threshold? number # inside are pixels of this brightness or more: black is 0, white is 1 (default 0.5)
+---@field invert? boolean # inside are darker pixels instead, and values are those of the negative (default false)
+---@field pixel? number # the side of a pixel, length (default 1)
+---@field component? "one"|"largest"|"all" # what of a mask whose parts do not hang together by sides of pixels: nothing, unless the others are specks of a thousandth in all; the largest part; all (default "one")
+
+---What is bright in a picture (.png, .pgm), y up, with its lower left corner at (0, 0): the squares of its pixels, whose values `d:value` gives. With `threshold = 0` the whole picture is a map of density.
+---@param path string
+---@param options? venule.image.Options
+---@return venule.Domain
+function venule.domain.image(path, options) end
+
+---@class (exact) venule.volume.Options
+---@field threshold? number # inside are voxels of this value or more; left out: 0.5, and 128 in a .vol
+---@field invert? boolean # inside are voxels below it instead (default false)
+---@field component? "one"|"largest"|"all" # what of a mask whose parts do not hang together by faces of voxels: nothing, unless the others are specks of a thousandth in all; the largest part; all (default "one")
+
+---What is inside in a volume of voxels, in 3D: NIfTI (.nii, .nii.gz), NRRD (.nrrd) or DGtal's .vol, in the file's own coordinates and unit (NRRD's turned to right, anterior, superior as NIfTI has them). `d:value` is a voxel's value over the greatest inside.
+---@param path string
+---@param options? venule.volume.Options
+---@return venule.Domain
+function venule.domain.volume(path, options) end
 
 ---@class (exact) venule.mesh.Options
 ---@field on? "surface"|"inside" # what of the mesh is the domain: its surface, or what it encloses (default "surface")
@@ -991,6 +1118,42 @@ function Volume:count() end
 ---Write the volume: .nii, .nii.gz, .nrrd, .vol (masks and centre lines) or, of a 2D network, .pgm, by the path's extension.
 ---@param path string
 function Volume:save(path) end
+
+---What `venule.cco{…}` grows with, as its field `engine`: `#c` trees, numbered from 1.
+---@class venule.Cco
+local Cco = {}
+
+---Add a tree, by the options of one in venule.cco{…} (`root` or `from`, `inflow`, …); its number.
+---@param options table
+---@return integer
+function Cco:add(options) end
+
+---Keep clear of a network that does not grow here: its edges as tubes of their radii.
+---@param network venule.Network
+function Cco:avoid(network) end
+
+---From now on terminals fall into that part of the domain, until each tree has so many more.
+---@param options {domain?: venule.Domain, terminals: integer}
+function Cco:stage(options) end
+
+---Add up to n terminals to each tree, in turns; how many came in all. Where no place is found for another: nil, why, and how many came before.
+---@param n integer
+---@return integer?, string?, integer?
+function Cco:grow(n) end
+
+---Whether every tree has the terminals it was to have.
+---@return boolean
+function Cco:done() end
+
+---A tree as a network of its own, with radius, flow and pressure of the terminals it has now.
+---@param tree integer
+---@return venule.Network
+function Cco:network(tree) end
+
+---What a tree has come to, and what was refused on the way.
+---@param tree integer
+---@return venule.CcoReport
+function Cco:report(tree) end
 
 ---Random numbers that depend on nothing but their seed: `venule.rng(7)`.
 ---@class venule.Rng

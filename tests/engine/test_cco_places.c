@@ -174,7 +174,8 @@ static void check_seek(const vn_grower *g, const double p[3], vn_seek seek) {
     int32_t nearest = -1, node;
     for (int32_t i = 0; i < g->tree.vessels.count; i++) {
         const vn_vessel *v = vn_vessel_of(g, i);
-        bool counts = seek == VN_SEEK_AXIS || (v->parent >= 0 && (seek == VN_SEEK_SEGMENT || v->first_child < 0));
+        bool counts =
+            seek == VN_SEEK_AXIS || (v->parent >= 0 && (seek == VN_SEEK_SEGMENT || v->first_child < 0));
         double far = counts ? away2(g, p, i, seek == VN_SEEK_TERMINAL) : INFINITY;
         nearest = far < least ? i : nearest;
         least = fmin(least, far);
