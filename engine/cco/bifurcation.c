@@ -162,7 +162,8 @@ static bool newton(const double h[3], const double gradient[2], double step[2]) 
 // Half the way until it goes down. A step that is too small to tell is taken.
 static bool descend(const vn_triangle *t, const slope *s, double a, double b, const double step[2],
                     double x[2]) {
-    for (double part = 1; part > 1e-6; part /= 2) {
+    double part = 1;
+    for (int halvings = 0; halvings < 20; halvings++, part /= 2) {
         double y[2] = {x[0] + part * step[0], x[1] + part * step[1]};
         place at;
         look(t, y, &at);

@@ -143,10 +143,12 @@ static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) 
         return VN_OK;
     }
     for (int i = 0; i < across * across * deep; i++) {
-        int at[3] = {i % across, i / across % across, i / (across * across)};
-        double p[3] = {0, 0, 0}, density;
-        for (int k = 0; k < darts->dim; k++) {
-            p[k] = b->low[k] + b->side * (at[k] + 0.5) / across;
+        double part = b->side / across;
+        double p[3] = {b->low[0] + part * (i % across + 0.5), b->low[1] + part * (i / across % across + 0.5),
+                       0};
+        double density;
+        if (darts->dim == 3) {
+            p[2] = b->low[2] + part * (i / (across * across) + 0.5);
         }
         VN_TRY(density_at(darts, p, &density));
         sum += density;

@@ -10,18 +10,18 @@ static const double SLACK = 1e-9;
 static void choose_cells(vn_tube_grid *grid, const double extent[3], int32_t cells) {
     double measure = 1, longest = 0;
     int flat = 0;
-    for (int k = 0; k < grid->dim; k++) {
+    for (int k = 0; k < 3; k++) {
         longest = fmax(longest, extent[k]);
     }
     longest = longest > 0 ? longest : 1;
-    for (int k = 0; k < grid->dim; k++) { // a side that hardly is one counts as a cell thick
+    for (int k = 0; k < 3; k++) { // a side that hardly is one counts as a cell thick
         flat += extent[k] < 1e-3 * longest;
         measure *= extent[k] < 1e-3 * longest ? 1 : extent[k];
     }
     double wanted = cells < 1 ? 1 : cells < MOST_CELLS / 8 ? cells : MOST_CELLS / 8;
-    grid->cell = pow(measure / wanted, 1.0 / (grid->dim - flat));
+    grid->cell = pow(measure / wanted, 1.0 / (flat < 3 ? 3 - flat : 1));
     for (int k = 0; k < 3; k++) {
-        grid->size[k] = k < grid->dim ? (int32_t)fmin(floor(extent[k] / grid->cell), 1e6) + 1 : 1;
+        grid->size[k] = (int32_t)fmin(floor(extent[k] / grid->cell), 1e6) + 1;
     }
 }
 
