@@ -143,12 +143,11 @@ static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) 
         return VN_OK;
     }
     for (int i = 0; i < across * across * deep; i++) {
-        double part = b->side / across;
-        double p[3] = {b->low[0] + part * (i % across + 0.5), b->low[1] + part * (i / across % across + 0.5),
-                       0};
-        double density;
+        int column = i % across, row = i / across % across, layer = i / (across * across);
+        double part = b->side / across, density;
+        double p[3] = {b->low[0] + part * (column + 0.5), b->low[1] + part * (row + 0.5), 0};
         if (darts->dim == 3) {
-            p[2] = b->low[2] + part * (i / (across * across) + 0.5);
+            p[2] = b->low[2] + part * (layer + 0.5);
         }
         VN_TRY(density_at(darts, p, &density));
         sum += density;
