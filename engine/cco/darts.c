@@ -80,7 +80,6 @@ static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
     VN_TRY(vn_array_push(&bin->cells, cell));
     darts->levels[class] |= 1u << b->level;
     c->link = bin->cells.count - 1;
-    darts->top = class < darts->top ? class : darts->top;
     account(darts, class, c, b->side, 1);
     return VN_OK;
 }
@@ -266,8 +265,10 @@ typedef struct live {
     double skip; ///< log of the chance that a dart anywhere misses it
 } live;
 
+// Vessels may have moved by the tolerance untold: points may be as much farther from them than their cell's
+// bound.
 static live live_above(const vn_darts *darts, double threshold) {
-    live l = {.last = class_of(darts, threshold)};
+    live l = {.last = class_of(darts, threshold - darts->tolerance)};
     for (int class = 0; class <= l.last; class ++) {
         l.mass += darts->mass[class];
         l.volume += darts->volume[class];

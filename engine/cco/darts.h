@@ -37,7 +37,6 @@ typedef struct vn_darts {
     double tolerance;    ///< that vessels may be away from where vn_darts_tell() was told
     VN_ARRAY(vn_dart_cell) cells;
     vn_dart_bin *bins;                ///< by class of bound, then level
-    int top;                          ///< no class before it has any
     uint32_t levels[VN_DART_CLASSES]; ///< which of a class's bins hold any
     double mass[VN_DART_CLASSES];     ///< of each class's leaves
     double volume[VN_DART_CLASSES];
