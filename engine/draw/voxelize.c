@@ -133,23 +133,6 @@ static double distance_to(const vn_tube *tube, const axis_of_tube *axis, const i
     return sqrt(x * x + y * y + z * z);
 }
 
-static void set_number(vn_volume *volume, size_t index, double value) {
-    switch (volume->type) {
-    case VN_VOXEL_U8:
-        ((uint8_t *)volume->data)[index] = (uint8_t)value;
-        break;
-    case VN_VOXEL_U16:
-        ((uint16_t *)volume->data)[index] = (uint16_t)value;
-        break;
-    case VN_VOXEL_U32:
-        ((uint32_t *)volume->data)[index] = (uint32_t)value;
-        break;
-    case VN_VOXEL_F32:
-        ((float *)volume->data)[index] = (float)value;
-        break;
-    }
-}
-
 static void put_part(const painter *p, size_t index, const vn_tube *tube, double distance) {
     double part =
         p->grid->dim == 3 ? part_of_discs(tube->radius, distance) : part_of_interval(tube->radius, distance);
@@ -177,7 +160,7 @@ static void put(const painter *p, const vn_tube *tube, const int32_t voxel[3], d
         }
         p->depth[index] = depth;
     }
-    set_number(p->volume, index, tube->value);
+    vn_volume_put(p->volume, index, tube->value);
 }
 
 // The whole numbers in [from - reach, to + reach] and [low, high).

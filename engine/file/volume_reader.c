@@ -134,20 +134,6 @@ static double scalar_of(vn_scalar scalar, uint64_t bits) {
     }
 }
 
-static void put(vn_volume *volume, size_t index, double value) {
-    switch (volume->type) {
-    case VN_VOXEL_U8:
-        ((uint8_t *)volume->data)[index] = (uint8_t)value;
-        break;
-    case VN_VOXEL_U16:
-        ((uint16_t *)volume->data)[index] = (uint16_t)value;
-        break;
-    default:
-        ((float *)volume->data)[index] = (float)value;
-        break;
-    }
-}
-
 static vn_status take_numbers(vn_volume *volume, vn_bytes *bytes, const vn_volume_head *head, size_t voxels) {
     for (size_t i = 0; i < voxels; i++) {
         double value;
@@ -160,7 +146,7 @@ static vn_status take_numbers(vn_volume *volume, vn_bytes *bytes, const vn_volum
             return vn_fail(VN_IO, "%s: voxel %zu is %.17g: its type holds whole numbers from 0 to %g",
                            vn_bytes_path(bytes), i, value, most);
         }
-        put(volume, i, head->slope * value + head->intercept);
+        vn_volume_put(volume, i, head->slope * value + head->intercept);
         if (i % 65536 == 0) {
             VN_TRY(vn_poll());
         }
@@ -177,7 +163,7 @@ static vn_status take_scalars(vn_volume *volume, vn_bytes *bytes, const vn_volum
         VN_TRY(vn_bytes_take(bytes, chunk, count * size, "voxels"));
         for (size_t i = 0; i < count; i++) {
             double value = scalar_of(head->scalar, gather(chunk + i * size, size, head->big_endian));
-            put(volume, begin + i, head->slope * value + head->intercept);
+            vn_volume_put(volume, begin + i, head->slope * value + head->intercept);
         }
         if (begin / CHUNK % 256 == 0) {
             VN_TRY(vn_poll());

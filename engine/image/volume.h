@@ -55,4 +55,22 @@ static inline double vn_volume_at(const vn_volume *volume, size_t index) {
     }
 }
 
+/// Set a voxel to a number that its type can hold.
+static inline void vn_volume_put(vn_volume *volume, size_t index, double value) {
+    switch (volume->type) {
+    case VN_VOXEL_U8:
+        ((uint8_t *)volume->data)[index] = (uint8_t)value;
+        break;
+    case VN_VOXEL_U16:
+        ((uint16_t *)volume->data)[index] = (uint16_t)value;
+        break;
+    case VN_VOXEL_U32:
+        ((uint32_t *)volume->data)[index] = (uint32_t)value;
+        break;
+    case VN_VOXEL_F32:
+        ((float *)volume->data)[index] = (float)value;
+        break;
+    }
+}
+
 #endif
