@@ -3,6 +3,7 @@
 #define VN_COLONIZE_ATTRACTORS_H
 
 #include "base/schema.h"
+#include "colonize/perception.h"
 #include "network/network.h"
 #include "space/reach_tree.h"
 #include "venule/attractors.h"
@@ -10,6 +11,7 @@
 extern const vn_schema vn_attractors_schema;
 extern const vn_schema vn_throw_schema;
 extern const vn_schema vn_influence_schema;
+extern const vn_schema vn_perception_schema;
 extern const vn_schema vn_extend_schema;
 extern const vn_schema vn_consume_schema;
 
@@ -102,6 +104,8 @@ struct vn_attractors {
     vn_box room;        ///< where new nodes can be, while `has_room`
     bool has_room;
 
+    vn_gaze gaze; ///< where it is open, `node` is the nearest that may still grow
+
     // What the remembered nodes were taken from.
     uint64_t network_serial, network_moved;
     double reach2;
@@ -177,6 +181,12 @@ vn_status vn_attractors_tidy(vn_attractors *a);
 
 /// Bring the remembered nodes of @p mode up to date with @p network, for all nodes up to @p reach away.
 vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, int mode, double reach);
+/// Drop all that is remembered of nodes; the next sync looks anew.
+void vn_attractors_forget(vn_attractors *a);
+
+/// Where the gaze is open: attractors whose node cannot grow any more turn to the nearest that can, within
+/// @p reach, and what is farther off is forgotten.
+vn_status vn_attractors_turn(vn_attractors *a, vn_network *network, double reach);
 
 /// Remember that attractor @p i has a node at squared distance @p d2 that it did not have before.
 vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2);

@@ -30,9 +30,11 @@ vn_status vn_consume_one(vn_attractors *a, int32_t i, vn_attractors *into, int32
     return VN_OK;
 }
 
-// A hidden attractor remembers the nearest node that sees it; any node may consume it.
+// A hidden attractor remembers the nearest node that sees it, a perceived one the nearest that can grow; any
+// node may consume it.
 static bool is_reached(const vn_attractors *a, const vn_network *network, int32_t i, double distance) {
-    if (a->mode == VN_NEAREST && !(a->idle.data[i] & VN_HIDDEN)) {
+    bool nearest = a->mode == VN_NEAREST && !vn_gaze_is_open(&a->gaze);
+    if (nearest && !(a->idle.data[i] & VN_HIDDEN)) {
         return a->node.data[i] >= 0 && a->near2.data[i] < distance * distance;
     }
     double p[3];

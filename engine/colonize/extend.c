@@ -1,10 +1,10 @@
 // New vein nodes (Runions et al. 2005, Equation 1), with the guards of READINGS R3: no child where one is,
 // every run ends.
 
-#include "colonize/attractors.h"
+#include "colonize/extend.h"
 #include "domain/domain.h"
 
-static const vn_extend_def extend_default = {.length = 1};
+static const vn_extend_def extend_default = {.length = 1, .bifurcate = -1};
 
 static const vn_field extend_fields[] = {
     {"length", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_extend_def, length), 0, 1e150, "length", NULL,
@@ -14,6 +14,12 @@ static const vn_field extend_fields[] = {
     {"meet", VN_CHOICE, 0, offsetof(vn_extend_def, meet), 0, 0, "", "cross|join|stop",
      "what a vein does that would cross another one: go on across it, as in the papers, end there, joined to "
      "it, or not grow (both in 2D); what drew that vein alone is then given up"},
+    {"bias", VN_F64, 0, offsetof(vn_extend_def, bias), 0, 1, "", NULL,
+     "ω, with perception: how much of a vessel's own direction is in that of its next segment"},
+    {"bias_mean", VN_BOOL, 0, offsetof(vn_extend_def, bias_mean), 0, 0, "", NULL,
+     "weigh the mean of the directions to attractors against that, rather than their sum"},
+    {"bifurcate", VN_F64, VN_OPTIONAL, offsetof(vn_extend_def, bifurcate), 0, 180, "degrees", NULL,
+     "φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none does"},
 };
 const vn_schema vn_extend_schema =
     VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);
@@ -24,17 +30,7 @@ vn_extend_def vn_extend_def_default(void) {
 
 enum { PATIENCE = 24 }; // calls of extend that an attractor may pull in without a vein coming nearer
 
-/// One call of vn_extend().
-typedef struct extension {
-    vn_network *network;
-    vn_influence *influence;
-    vn_attractors *a;
-    const vn_extend_def *def;
-    int32_t node;                ///< the node that is to grow
-    const vn_keyed *begin, *end; ///< its pairs; their values are attractors
-} extension;
-
-static double direction_to(const extension *e, int32_t node, int32_t attractor, double n[3]) {
+double vn_direction_to(const vn_extension *e, int32_t node, int32_t attractor, double n[3]) {
     double p[3], q[3];
     vn_network_position(e->network, node, p);
     vn_attractors_place(e->a, attractor, q);
@@ -49,7 +45,7 @@ static double direction_to(const extension *e, int32_t node, int32_t attractor, 
 // the chord shrinks, and is stretched to the step's length once. A step that leads past the border, or leaves
 // the surface so steeply that hardly anything of it is left, keeps its place off the surface, where it is
 // refused.
-static void step_along_surface(const extension *e, const double q[3], double p[3]) {
+static void step_along_surface(const vn_extension *e, const double q[3], double p[3]) {
     double length = e->def->length, s[3] = {p[0], p[1], p[2]};
     double chord = vn_domain_snap(e->def->domain, s) ? sqrt(vn_distance2(s, q)) : 0;
     if (!(chord > 0.25 * length)) {
@@ -64,7 +60,7 @@ static void step_along_surface(const extension *e, const double q[3], double p[3
     memcpy(p, s, sizeof s);
 }
 
-static void step_from(const extension *e, int32_t node, const double n[3], double p[3]) {
+void vn_step_from(const vn_extension *e, int32_t node, const double n[3], double p[3]) {
     double q[3];
     vn_network_position(e->network, node, q);
     for (int k = 0; k < 3; k++) {
@@ -77,7 +73,7 @@ static void step_from(const extension *e, int32_t node, const double n[3], doubl
 
 // Directions repeat when what draws the node does, to rounding. Lengths need not: where the unit shrinks, the
 // new edge would lie on the old, longer one.
-static bool has_child_toward(const extension *e, int32_t node, const double p[3]) {
+bool vn_has_child_toward(const vn_extension *e, int32_t node, const double p[3]) {
     const vn_network *network = e->network;
     const double same = 1e-6;
     double o[3], q[3];
@@ -98,7 +94,7 @@ static bool has_child_toward(const extension *e, int32_t node, const double p[3]
     return false;
 }
 
-static bool stays_inside(const extension *e, int32_t node, const double p[3]) {
+bool vn_stays_inside(const vn_extension *e, int32_t node, const double p[3]) {
     const vn_domain *domain = e->def->domain;
     double q[3];
     vn_network_position(e->network, node, q);
@@ -106,15 +102,20 @@ static bool stays_inside(const extension *e, int32_t node, const double p[3]) {
     return domain == NULL || (vn_domain_contains(domain, p) && vn_domain_sees(domain, q, p));
 }
 
-static bool mean_direction(const extension *e, double n[3]) {
-    double sum[3] = {0, 0, 0};
+void vn_sum_directions(const vn_extension *e, double sum[3]) {
+    memset(sum, 0, 3 * sizeof *sum);
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         double one[3];
-        direction_to(e, e->node, pair->value, one);
+        vn_direction_to(e, e->node, pair->value, one);
         for (int k = 0; k < 3; k++) {
             sum[k] += one[k];
         }
     }
+}
+
+static bool mean_direction(const vn_extension *e, double n[3]) {
+    double sum[3];
+    vn_sum_directions(e, sum);
     double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     bool vanishes = length <= 1e-12 * (double)(e->end - e->begin);
     for (int k = 0; k < 3; k++) {
@@ -124,15 +125,15 @@ static bool mean_direction(const extension *e, double n[3]) {
 }
 
 // Whether a step toward this attractor alone leads to a place of its own, nearer to it and inside.
-static bool may_step_to(const extension *e, int32_t node, int32_t attractor, double p[3]) {
+static bool may_step_to(const vn_extension *e, int32_t node, int32_t attractor, double p[3]) {
     double n[3];
-    double distance = direction_to(e, node, attractor, n);
-    step_from(e, node, n, p);
-    return e->def->length < 2 * distance && !has_child_toward(e, node, p) && stays_inside(e, node, p);
+    double distance = vn_direction_to(e, node, attractor, n);
+    vn_step_from(e, node, n, p);
+    return e->def->length < 2 * distance && !vn_has_child_toward(e, node, p) && vn_stays_inside(e, node, p);
 }
 
 // The place toward the first-ranked attractor that a step can be made to.
-static bool step_to_one(const extension *e, double p[3]) {
+static bool step_to_one(const vn_extension *e, double p[3]) {
     bool found = false;
     uint64_t least = 0;
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
@@ -148,7 +149,7 @@ static bool step_to_one(const extension *e, double p[3]) {
 }
 
 typedef struct sight {
-    const extension *e;
+    const vn_extension *e;
     int32_t attractor;
     double at[3];
     int64_t tries; ///< nodes that may still be asked
@@ -177,23 +178,23 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
-static vn_status grow_edge(const extension *e, int32_t node, const double p[3]) {
+vn_status vn_grow_edge(const vn_extension *e, int32_t node, const double p[3]) {
     vn_outcome outcome;
     VN_TRY(vn_meet(e->network, node, p, -1, e->def, &outcome));
     return outcome == VN_CLEAR ? vn_network_add(e->network, node, p, NULL) : VN_OK;
 }
 
-static vn_status step_toward(const extension *e, int32_t node, int32_t attractor) {
+static vn_status step_toward(const vn_extension *e, int32_t node, int32_t attractor) {
     double n[3], p[3];
-    direction_to(e, node, attractor, n);
-    step_from(e, node, n, p);
-    return grow_edge(e, node, p);
+    vn_direction_to(e, node, attractor, n);
+    vn_step_from(e, node, n, p);
+    return vn_grow_edge(e, node, p);
 }
 
 // The nearest node that sees the attractor gets it, and grows at once. @p found says whether there is one
 // among the nearest
 // @p tries.
-static vn_status look_for_sight(const extension *e, int32_t attractor, int64_t tries, bool *found) {
+static vn_status look_for_sight(const vn_extension *e, int32_t attractor, int64_t tries, bool *found) {
     vn_attractors *a = e->a;
     sight s = {e, attractor, {0, 0, 0}, tries, NULL};
     vn_points nodes = vn_network_points(e->network);
@@ -228,7 +229,7 @@ static void retire_hidden(vn_attractors *a, int32_t attractor) {
 
 // The border is between this attractor and its node: it turns to the nearest node that sees it, or waits
 // for one.
-static vn_status turn_to_another(const extension *e, int32_t attractor) {
+static vn_status turn_to_another(const vn_extension *e, int32_t attractor) {
     vn_attractors *a = e->a;
     bool found;
     if ((a->idle.data[attractor] & VN_TURNS) == VN_TURNS) {
@@ -250,7 +251,7 @@ static vn_status turn_to_another(const extension *e, int32_t attractor) {
 }
 
 // Those that wait look around again, among the nearest @p tries nodes.
-static vn_status look_again(const extension *e, int64_t tries) {
+static vn_status look_again(const vn_extension *e, int64_t tries) {
     vn_attractors *a = e->a;
     int32_t kept = 0;
     vn_status status = VN_OK;
@@ -275,7 +276,7 @@ static bool still_grows(const vn_domain *domain) {
 
 // Seldom while veins grow elsewhere, and thoroughly when nothing else does. What even then no node sees is
 // retired, unless the margin still moves.
-static vn_status mind_waiting(const extension *e, int32_t first) {
+static vn_status mind_waiting(const vn_extension *e, int32_t first) {
     vn_attractors *a = e->a;
     bool grew = e->network->x.count > first;
     if (a->waiting.count == 0 || (grew && e->network->step < a->next_look)) {
@@ -295,7 +296,7 @@ static vn_status mind_waiting(const extension *e, int32_t first) {
 }
 
 // An attractor that no vein comes nearer to, however often it pulls, is let go, or some run would never end.
-static void lose_patience(const extension *e) {
+static void lose_patience(const vn_extension *e) {
     vn_attractors *a = e->a;
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         int32_t i = pair->value;
@@ -332,7 +333,7 @@ static vn_status check_root(const vn_network *network, int32_t node, const vn_do
 
 // A seed beyond the border would have every edge refused, and its attractors given up one by one. Roots are
 // looked at once.
-static vn_status check_roots(const extension *e) {
+static vn_status check_roots(const vn_extension *e) {
     vn_attractors *a = e->a;
     const vn_network *network = e->network;
     if (e->def->domain == NULL || (a->roots_serial == network->serial && a->roots_inside == network->roots)) {
@@ -348,7 +349,7 @@ static vn_status check_roots(const extension *e) {
     return VN_OK;
 }
 
-static void retire_barred(const extension *e) {
+static void retire_barred(const vn_extension *e) {
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         e->a->retired.barred++;
         vn_attractors_remove(e->a, pair->value);
@@ -356,7 +357,7 @@ static void retire_barred(const extension *e) {
 }
 
 // Attractors on both sides of a vein draw along it or across it: one of them alone may still be reached.
-static vn_status grow_or_stop(const extension *e, double p[3]) {
+static vn_status grow_or_stop(const vn_extension *e, double p[3]) {
     vn_outcome outcome;
     VN_TRY(vn_meet(e->network, e->node, p, -1, e->def, &outcome));
     bool stopped = e->def->meet == VN_MEET_STOP && outcome == VN_BARRED;
@@ -371,7 +372,7 @@ static vn_status grow_or_stop(const extension *e, double p[3]) {
 }
 
 // In the closed modes an attractor that the border hides waits for other veins.
-static void note_hidden(const extension *e, bool inside) {
+static void note_hidden(const vn_extension *e, bool inside) {
     for (const vn_keyed *pair = e->begin; !inside && pair < e->end; pair++) {
         e->a->idle.data[pair->value] |= VN_HIDDEN;
     }
@@ -379,7 +380,7 @@ static void note_hidden(const extension *e, bool inside) {
 
 // Where an attractor draws several veins its patience is renewed by any that comes nearer (vn_ties_show).
 // What waits for tagged veins is minded by vn_touch().
-static void count_idle_steps(const extension *e) {
+static void count_idle_steps(const vn_extension *e) {
     vn_attractors *a = e->a;
     const vn_influence *influence = e->influence;
     for (int32_t k = 0; k < influence->attractor.count; k++) {
@@ -428,21 +429,27 @@ static void remember_extension(vn_attractors *a, const vn_extend_def *def) {
 
 // Whether some attractor is so far off that a step does not lead past it. Where each draws several veins, two
 // nodes on either side of one would take turns to grow where the other is, and be twice as many each time.
-static bool leads_somewhere(const extension *e) {
+static bool leads_somewhere(const vn_extension *e) {
     double n[3];
     bool leads = e->a->mode == VN_NEAREST;
     for (const vn_keyed *pair = e->begin; !leads && pair < e->end; pair++) {
-        leads = e->def->length < 2 * direction_to(e, e->node, pair->value, n);
+        leads = e->def->length < 2 * vn_direction_to(e, e->node, pair->value, n);
     }
     return leads;
 }
 
-static vn_status grow_node(const extension *e) {
+static vn_status grow_vessel(const vn_extension *e) {
+    VN_TRY(vn_sprout(e));
+    lose_patience(e);
+    return VN_OK;
+}
+
+static vn_status grow_node(const vn_extension *e) {
     double n[3], p[3];
     bool has_mean = mean_direction(e, n);
-    step_from(e, e->node, n, p);
-    bool free = has_mean && leads_somewhere(e) && !has_child_toward(e, e->node, p);
-    bool inside = !free || stays_inside(e, e->node, p);
+    vn_step_from(e, e->node, n, p);
+    bool free = has_mean && leads_somewhere(e) && !vn_has_child_toward(e, e->node, p);
+    bool inside = !free || vn_stays_inside(e, e->node, p);
     if ((free && inside) || step_to_one(e, p)) {
         VN_TRY(grow_or_stop(e, p));
     } else if (e->a->mode != VN_NEAREST) {
@@ -469,9 +476,10 @@ static vn_status group_by_node(vn_influence *influence) {
     return vn_sort_keyed(&a->by_node, &a->scratch);
 }
 
-static vn_status grow_nodes(extension *e) {
+static vn_status grow_nodes(vn_extension *e) {
     const vn_keyed *pairs = e->a->by_node.data;
     int32_t count = e->a->by_node.count;
+    bool vessels = vn_gaze_is_open(&e->a->gaze);
     for (int32_t begin = 0, end; begin < count; begin = end) {
         end = begin + 1;
         while (end < count && pairs[end].key == pairs[begin].key) {
@@ -480,7 +488,7 @@ static vn_status grow_nodes(extension *e) {
         e->node = (int32_t)pairs[begin].key;
         e->begin = pairs + begin;
         e->end = pairs + end;
-        VN_TRY(grow_node(e));
+        VN_TRY(vessels ? grow_vessel(e) : grow_node(e));
     }
     return VN_OK;
 }
@@ -494,6 +502,11 @@ static vn_status check_extend(const vn_network *network, const vn_influence *inf
                        "extend: the influence is out of date, or of another network: call influence() "
                        "again after anything has changed");
     }
+    bool vessel = def->bias > 0 || def->bias_mean || def->bifurcate >= 0;
+    if (vessel && !vn_gaze_is_open(&influence->attractors->gaze)) {
+        return vn_fail(VN_INVALID, "extend.%s is for vessels: give the influence perception = {angle=}",
+                       def->bifurcate >= 0 ? "bifurcate" : "bias");
+    }
     if (def->domain != NULL && vn_domain_dim(def->domain) != network->dim) {
         return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d",
                        vn_domain_dim(def->domain), network->dim);
@@ -506,7 +519,7 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     *added = 0;
     *first = network->x.count;
     VN_TRY(check_extend(network, influence, def));
-    extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
+    vn_extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
     VN_TRY(check_roots(&e));
     remember_extension(e.a, def);
     int32_t joins = network->joins.count;

@@ -1,6 +1,6 @@
 #include "colonize/attractors.h"
 
-static const vn_influence_def influence_default = {0};
+static const vn_influence_def influence_default = {.perception = {.lateral = true}};
 
 static const vn_field influence_fields[] = {
     {"mode", VN_CHOICE, 0, offsetof(vn_influence_def, mode), 0, 0, "", "nearest|relative|urquhart",
@@ -8,6 +8,8 @@ static const vn_field influence_fields[] = {
      "neighbors (closed venation, §4), or the Urquhart approximation of these (§5.2)"},
     {"within", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_influence_def, within), 0, VN_HUGE, "length",
      NULL, "attraction distance: nodes farther away are not influenced; left out: any distance"},
+    {"perception", VN_MIXED, 0, offsetof(vn_influence_def, perception), 0, 0, "", "table {angle=, lateral=}",
+     "what the nodes of a vessel perceive (Rauch & Harders, Equations 2 and 3); left out: they look all around"},
 };
 const vn_schema vn_influence_schema =
     VN_SCHEMA("influence", "Which attractors influence which nodes", influence_fields, influence_default);
@@ -92,6 +94,22 @@ static vn_status list_ties(vn_influence *influence, int32_t i, double within2) {
     return VN_OK;
 }
 
+static bool perceives(const vn_attractors *a, const vn_network *network, int32_t i) {
+    if (!vn_gaze_is_open(&a->gaze)) {
+        return true;
+    }
+    vn_zone zone;
+    double p[3], d[3];
+    int32_t node = a->node.data[i];
+    vn_zone_find(&zone, &a->gaze, network, node);
+    vn_network_position(network, node, p);
+    vn_attractors_place(a, i, d);
+    for (int k = 0; k < 3; k++) {
+        d[k] -= p[k];
+    }
+    return vn_zone_holds(&zone, d, 0);
+}
+
 static vn_status list_pairs(vn_influence *influence, double within) {
     vn_attractors *a = influence->attractors;
     double within2 = within * within;
@@ -104,23 +122,39 @@ static vn_status list_pairs(vn_influence *influence, double within) {
         }
         if (a->mode != VN_NEAREST) {
             VN_TRY(list_ties(influence, i, within2));
-        } else if (a->near2.data[i] <= within2) {
+        } else if (a->near2.data[i] <= within2 && perceives(a, influence->network, i)) {
             VN_TRY(push_pair(influence, i, a->node.data[i]));
         }
     }
     return VN_OK;
 }
 
-static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *network, int mode,
-                      double within) {
+// Other options change what each attractor has to remember.
+static vn_status open_gaze(vn_attractors *a, const vn_network *network, const vn_perception *perception) {
+    bool open = vn_gaze_is_open(&a->gaze), lateral = a->gaze.perception.lateral;
+    VN_TRY(vn_gaze_prepare(&a->gaze, network, perception));
+    if (open != vn_gaze_is_open(&a->gaze) || (open && lateral != perception->lateral)) {
+        vn_attractors_forget(a);
+    }
+    if (vn_gaze_is_open(&a->gaze) && (network->recount || network->pending.count > 0)) {
+        vn_network_settle(network);
+    }
+    return VN_OK;
+}
+
+static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *network,
+                      const vn_influence_def *def) {
+    double within = def->within > 0 ? def->within : INFINITY;
     influence->attractor.count = influence->node.count = 0;
     influence->attractors = a;
     influence->network = network;
     influence->attractors_version = 0; // no set has it: not current until all is found
     VN_TRY(vn_poll());
     VN_TRY(vn_attractors_tidy(a));
-    VN_TRY(vn_attractors_sync(a, network, mode, within));
+    VN_TRY(open_gaze(a, network, &def->perception));
+    VN_TRY(vn_attractors_sync(a, network, def->mode, within));
     VN_TRY(renew_active(a));
+    VN_TRY(vn_attractors_turn(a, network, within));
     VN_TRY(list_pairs(influence, within));
     influence->attractors_version = a->version;
     influence->network_version = network->version;
@@ -131,6 +165,9 @@ static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *net
 vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_network *network,
                             const vn_influence_def *def) {
     VN_TRY(vn_check_def(&vn_influence_schema, def));
+    if (def->perception.angle > 0 && def->mode != VN_NEAREST) {
+        return vn_fail(VN_INVALID, "influence.perception goes with mode = \"nearest\" alone");
+    }
     bool made = *out == NULL;
     if (made) {
         *out = VN_NEW(vn_influence);
@@ -138,7 +175,7 @@ vn_status vn_influence_find(vn_influence **out, vn_attractors *attractors, vn_ne
             return vn_fail_memory("an influence", sizeof **out);
         }
     }
-    vn_status status = find(*out, attractors, network, def->mode, def->within > 0 ? def->within : INFINITY);
+    vn_status status = find(*out, attractors, network, def);
     if (status != VN_OK && made) {
         vn_influence_destroy(*out);
         *out = NULL;

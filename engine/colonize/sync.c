@@ -48,6 +48,10 @@ vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2) {
     return vn_array_push(&a->fresh, ((vn_reach_hit){i, d2}));
 }
 
+void vn_attractors_forget(vn_attractors *a) {
+    a->network_serial = 0;
+}
+
 static bool is_hidden_from(const vn_attractors *a, const vn_network *network, int32_t i, int32_t node) {
     double p[3], q[3];
     if (!(a->idle.data[i] & VN_HIDDEN)) {
@@ -66,6 +70,9 @@ static vn_status show(vn_attractors *a, const vn_network *network, int32_t i, in
         return VN_OK;
     }
     VN_TRY(vn_attractors_note_fresh(a, i, d2));
+    if (vn_gaze_is_open(&a->gaze) && !vn_gaze_may_grow(&a->gaze, network, node)) {
+        return VN_OK; // it may consume the attractor, but can do nothing more for it
+    }
     if (is_hidden_from(a, network, i, node)) {
         return VN_OK; // it may be reached, and consumed, but does not draw the node
     }
@@ -175,6 +182,66 @@ static void look_range(int64_t begin, int64_t end, void *payload) {
     }
 }
 
+typedef struct growers {
+    const vn_attractors *a;
+    const vn_network *network;
+} growers;
+
+static bool accept_grower(int32_t node, void *payload) {
+    const growers *g = payload;
+    return vn_gaze_may_grow(&g->a->gaze, g->network, node);
+}
+
+// The nearest node that can still grow, however many nearer ones cannot.
+static vn_status look_for_grower(vn_attractors *a, vn_network *network, int32_t i) {
+    const vn_point_grid *grid;
+    growers payload = {a, network};
+    vn_points nodes = vn_network_points(network);
+    double p[3];
+    vn_nearest query = {.reach2 = a->reach2,
+                        .seed = a->seed,
+                        .id = a->id.data[i],
+                        .accept = accept_grower,
+                        .payload = &payload};
+    VN_TRY(vn_network_grid(network, 0, &grid));
+    vn_attractors_place(a, i, p);
+    vn_point_grid_nearest(grid, &nodes, p, &query);
+    if (query.point >= 0 && a->node.data[i] < 0) {
+        VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
+    }
+    a->node.data[i] = query.point;
+    a->near2.data[i] = query.point >= 0 ? query.reach2 : a->reach2;
+    a->best.data[i] = INFINITY;
+    vn_reach_tree_raise(&a->tree, p, a->near2.data[i]);
+    return VN_OK;
+}
+
+static void narrow(vn_attractors *a, double reach2) {
+    for (int32_t i = 0; i < a->x.count; i++) {
+        if (a->near2.data[i] > reach2) {
+            a->near2.data[i] = reach2;
+            a->node.data[i] = -1;
+        }
+    }
+    a->reach2 = reach2;
+}
+
+vn_status vn_attractors_turn(vn_attractors *a, vn_network *network, double reach) {
+    if (!vn_gaze_is_open(&a->gaze)) {
+        return VN_OK;
+    }
+    if (reach * reach < 0.5 * a->reach2) {
+        narrow(a, reach * reach);
+    }
+    for (int32_t k = 0; k < a->active.count; k++) {
+        int32_t i = a->active.data[k], node = a->node.data[i];
+        if (node >= 0 && !vn_gaze_may_grow(&a->gaze, network, node)) {
+            VN_TRY(look_for_grower(a, network, i));
+        }
+    }
+    return VN_OK;
+}
+
 enum { LOOK_AT_ONCE = 1 << 15 };
 
 // Newcomers look for their nearest node in the network's grid.
@@ -193,6 +260,8 @@ static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t b
         for (int32_t k = 0; status == VN_OK && k < count; k++) {
             if (!vn_is_gone(a, first + k) && found.data[k].point >= 0) {
                 status = show(a, network, first + k, found.data[k].point, found.data[k].reach2);
+                bool none = status == VN_OK && a->node.data[first + k] < 0;
+                status = none && vn_gaze_is_open(&a->gaze) ? look_for_grower(a, network, first + k) : status;
             }
         }
         status = status == VN_OK ? vn_poll() : status;

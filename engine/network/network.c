@@ -59,6 +59,7 @@ void vn_network_destroy(vn_network *network) {
     vn_array_free(&network->flow);
     vn_array_free(&network->pressure);
     vn_array_free(&network->join_flow);
+    vn_array_free(&network->headings);
     vn_array_free(&network->sequence);
     vn_point_grid_free(&network->grid);
     vn_point_tree_free(&network->tree_of_points);
@@ -167,6 +168,36 @@ vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3],
         return vn_fail(VN_INVALID, "a parent must be one of the %d nodes there are", network->x.count);
     }
     return add_node(network, parent, p, node);
+}
+
+vn_status vn_network_set_heading(vn_network *network, int32_t root, const double direction[3]) {
+    double length = hypot(hypot(direction[0], direction[1]), direction[2]);
+    if (root < 0 || root >= network->x.count || network->parent.data[root] >= 0) {
+        return vn_fail(VN_INVALID, "heading: node %d is no root", root);
+    }
+    if (!(length > 0 && length <= VN_HUGE)) {
+        return vn_fail(VN_INVALID, "heading: (%g, %g, %g) is no direction", direction[0], direction[1],
+                       direction[2]);
+    }
+    vn_heading heading = {root, {direction[0] / length, direction[1] / length, direction[2] / length}};
+    network->version++;
+    for (int32_t i = 0; i < network->headings.count; i++) {
+        if (network->headings.data[i].root == root) {
+            network->headings.data[i] = heading;
+            return VN_OK;
+        }
+    }
+    return vn_array_push(&network->headings, heading);
+}
+
+bool vn_network_heading(const vn_network *network, int32_t root, double direction[3]) {
+    for (int32_t i = 0; i < network->headings.count; i++) {
+        if (network->headings.data[i].root == root) {
+            memcpy(direction, network->headings.data[i].direction, 3 * sizeof *direction);
+            return true;
+        }
+    }
+    return false;
 }
 
 void vn_network_set_step(vn_network *network, int32_t step) {

@@ -30,6 +30,12 @@ typedef struct vn_demand {
     uint64_t version;         ///< of the network that it holds for
 } vn_demand;
 
+/// Where a root's first segment is to go, a unit vector.
+typedef struct vn_heading {
+    int32_t root;
+    double direction[3];
+} vn_heading;
+
 /// One entry a node in every column that is in use: 44 bytes a node in 2D with Murray radii.
 struct vn_network {
     int dim;
@@ -63,6 +69,7 @@ struct vn_network {
     vn_murray_def law;
     vn_demand demand;
     int32_t roots;
+    VN_ARRAY(vn_heading) headings;
     int32_t step;
     uint64_t serial;  ///< which network this is, among all of the process
     uint64_t version; ///< changes with every change
@@ -119,6 +126,9 @@ typedef struct vn_meeting {
 /// VN_NEAR_EDGE of it on.
 vn_status vn_network_meets(vn_network *network, int32_t node, const double p[3], int32_t to, double typical,
                            bool *meets, vn_meeting *meeting);
+
+/// The heading of a root; false where it has none.
+bool vn_network_heading(const vn_network *network, int32_t root, double direction[3]);
 
 /// Whether an edge or a join connects them.
 bool vn_network_connected(const vn_network *network, int32_t a, int32_t b);

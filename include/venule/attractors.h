@@ -65,12 +65,41 @@ VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int3
 /// for anew. None is dropped, and those that wait for a margin stay. Once a step, as vn_growth_carry().
 VN_API vn_status vn_attractors_carry(vn_attractors *attractors, vn_growth *growth);
 
+/// What the nodes of a vessel perceive (Rauch & Harders 2021, section 3).
+typedef struct vn_perception {
+    double angle; ///< γ, degrees, above 0, at most 360: a leaf perceives what lies within γ/2 of its own
+                  ///< direction (Equation 2); 0 (the default): every node perceives all around
+    bool lateral; ///< default true: inter-nodes, with one child, perceive what lies within γ/2 of Murray's
+                  ///< optimal branch (Equations 1 and 3), and grow laterals
+} vn_perception;
+VN_API vn_perception vn_perception_default(void);
+
+/// The shape of a node's perception volume, within the attraction distance of it.
+typedef enum vn_zone_kind {
+    VN_ZONE_NONE, ///< the node cannot grow any more
+    VN_ZONE_BALL, ///< a root without a heading perceives all around (READINGS R17)
+    VN_ZONE_CONE, ///< a leaf's, or a root's with a heading: around its direction
+    VN_ZONE_BELT, ///< an inter-node's: what is between two cones around its direction
+} vn_zone_kind;
+typedef struct vn_zone_shape {
+    vn_zone_kind kind;
+    double direction[3]; ///< of the edge to the parent; 0 where there is none
+    double angle;        ///< degrees from there to the middle of the zone: 0 in a cone, α in a belt
+} vn_zone_shape;
+/// What @p node perceives now. VN_INVALID without Murray's law, and where its exponent is not in (2, 4].
+VN_API vn_status vn_network_zone(const vn_network *network, int32_t node, const vn_perception *perception,
+                                 vn_zone_shape *out);
+
 typedef struct vn_influence_def {
     int mode; ///< 0 "nearest": each attractor influences the node nearest to it; 1 "relative": its relative
               ///< neighbors among the nodes (Runions §4, READINGS R4), exactly; 2 "urquhart": those of its
               ///< Delaunay neighbors that no other one of them excludes (§5.2, R5)
     double
         within; ///< attraction distance: nodes farther away are not influenced; 0 (the default): any distance
+    /// With an angle, in mode "nearest": each attractor influences the nearest node that can still grow, if
+    /// that one perceives it, and otherwise none (READINGS R16). Needs Murray's law, with an exponent above 2
+    /// and at most 4.
+    vn_perception perception;
 } vn_influence_def;
 VN_API vn_influence_def vn_influence_def_default(void);
 
@@ -100,13 +129,20 @@ typedef struct vn_extend_def {
     int meet; ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
               ///< it ends there, joined to the other vein; 2 "stop": it does not grow, and attractors that
               ///< draw no other node are retired (both in 2D)
+    double bias; ///< ω, 0 to 1, with perception: how much of the parent's direction, or of the optimal branch,
+                 ///< is in the new segment's (Equation 4); default 0
+    bool bias_mean; ///< with perception: weigh ω against the mean of the directions to the attractors, of
+                    ///< length 1; default false: against their sum, as printed (READINGS R18)
+    double bifurcate; ///< φ, degrees, 0 to 180, with perception: a leaf forks symmetrically where its attractors
+                      ///< deviate more from their mean direction (R19); default -1: never
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that
 /// direction vanishes, or has a child already, the node grows toward its first-ranked attractor alone
 /// (READINGS R3). Where the edge would leave the domain, each of the attractors is tried alone, then given to
 /// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
-/// retired. @p added gets how many nodes and joins there are more, @p first the index of the first such node.
+/// retired. Under perception a leaf grows one segment or forks in two, an inter-node gets one lateral, and a
+/// node that cannot grow into its zone without leaving the domain lets its attractors idle. @p added gets how many nodes and joins there are more, @p first the index of the first such node.
 /// Counts the network's step on. When it adds none, and neither attractors nor domain change, no later call
 /// will; but where attractors influence several nodes each, some may stand in each other's way until, after
 /// two dozen calls, they are given up.

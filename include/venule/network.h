@@ -40,6 +40,9 @@ VN_API vn_status vn_network_murray(vn_network *network, const vn_murray_def *def
 
 /// Add a root at @p p; its index into @p node (which may be NULL). VN_INVALID for a point that is not finite.
 VN_API vn_status vn_network_root(vn_network *network, const double p[3], int32_t *node);
+/// The direction that a root's first segment is to take (any length above 0), for what a root perceives.
+/// VN_INVALID for a node that is no root, and for no direction.
+VN_API vn_status vn_network_set_heading(vn_network *network, int32_t root, const double direction[3]);
 /// Add a child of @p parent. VN_INVALID for a parent that does not exist.
 VN_API vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3], int32_t *node);
 /// Put a new node at @p p into the edge between @p child and its parent: the new node is a child of that

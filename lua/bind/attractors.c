@@ -49,6 +49,10 @@ static int attractors_influence(lua_State *L) {
     lua_rawseti(L, -2, 2);
     lua_setiuservalue(L, -2, 1);
     vnl_read_options(L, 3, &vn_influence_schema, &def);
+    if (vnl_raw_field(L, 3, "perception") != LUA_TNIL) {
+        vnl_read_options(L, lua_gettop(L), &vn_perception_schema, &def.perception);
+    }
+    lua_pop(L, 1);
     vn_attractors *attractors = check_attractors(L);
     vn_network *network = vnl_check(L, 2, &vnl_network_class);
     vnl_try(L, vn_influence_find((vn_influence **)box, attractors, network, &def));

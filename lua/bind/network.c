@@ -53,6 +53,30 @@ static int network_root(lua_State *L) {
     return 1;
 }
 
+static int network_heading(lua_State *L) {
+    vn_network *network = check_network(L);
+    double d[3];
+    int32_t root = check_node(L, 2, network, "heading");
+    vnl_check_coordinates(L, 3, vn_network_dim(network), d);
+    vnl_try(L, vn_network_set_heading(network, root, d));
+    return 0;
+}
+
+static int network_zone(lua_State *L) {
+    static const char *const kinds[] = {"none", "ball", "cone", "belt"};
+    vn_perception perception;
+    vn_zone_shape zone;
+    vnl_read_options(L, 3, &vn_perception_schema, &perception);
+    vn_network *network = check_network(L);
+    vnl_try(L, vn_network_zone(network, check_node(L, 2, network, "zone"), &perception, &zone));
+    lua_createtable(L, 0, 3);
+    lua_pushstring(L, kinds[zone.kind]);
+    lua_setfield(L, -2, "kind");
+    vnl_set_number(L, "angle", zone.angle);
+    vnl_set_list(L, "direction", zone.direction, vn_network_dim(network));
+    return 1;
+}
+
 typedef vn_status put_fn(vn_network *network, int32_t at, const double p[3], int32_t *node);
 
 // A new node at the coordinates from argument 3 on, hung on or put before node 2.
@@ -236,6 +260,14 @@ static const vnl_function methods[] = {
     {"murray", network_murray, "(options: venule.murray.Options)", NULL,
      "Give the edges radii by Murray's law; from now on they follow it, however the network grows.",
      &vn_murray_schema},
+    {"heading", network_heading, "(root: integer, x: number, y: number, z?: number)", NULL,
+     "The direction that the first segment from a root is to take, for what the root perceives.", NULL},
+    {"zone", network_zone,
+     "(node: integer, options: venule.perception.Options): {kind: string, angle: number, direction: number[]}",
+     NULL,
+     "What a vessel's node perceives (Rauch & Harders, Equations 2 and 3): a \"cone\" around `direction`, a "
+     "\"belt\" at `angle` degrees from it, the whole \"ball\", or \"none\" when it cannot grow any more.",
+     &vn_perception_schema},
     {"extend", network_extend,
      "(influence: venule.Influence, options: venule.extend.Options): integer, integer", NULL,
      "Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation "
