@@ -63,6 +63,8 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->news);
     vn_array_free(&a->candidates);
     vn_array_free(&a->near_nodes);
+    vn_array_free(&a->refusers);
+    vn_array_free(&a->sleep);
     vn_point_grid_free(&a->grid);
     vn_domain_release(a->last.domain);
     vn_domain_release(a->sight);
@@ -161,6 +163,9 @@ static void move_attractor(vn_attractors *a, int32_t from, int32_t to) {
     a->id.data[to] = a->id.data[from];
     a->best.data[to] = a->best.data[from];
     a->idle.data[to] = a->idle.data[from];
+    if (to < a->sleep.count) {
+        a->sleep.data[to] = from < a->sleep.count ? a->sleep.data[from] : (vn_sleep){.node = -1};
+    }
     vn_ties_move(a, from, to);
 }
 
@@ -194,6 +199,7 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
         }
         kept++;
     }
+    a->sleep.count = kept < a->sleep.count ? kept : a->sleep.count;
     set_count(a, kept);
     a->stage.count = kept < a->stage.count ? kept : a->stage.count;
     a->first_tie.count = a->guards.count = a->farthest2.count = a->stage.count;
@@ -209,10 +215,11 @@ vn_status vn_attractors_tidy(vn_attractors *a) {
 }
 
 vn_status vn_attractors_grid(vn_attractors *a, double reach) {
-    bool fits = a->grid.cell > 0 && reach <= 8 * a->grid.cell && a->grid.cell <= 8 * reach;
-    if (!fits) {
+    bool outgrown = a->born - a->grid_born > (uint32_t)a->x.count / 4 + 64;
+    if (!vn_point_grid_fits(&a->grid, reach, outgrown)) {
         vn_point_grid_free(&a->grid);
         vn_point_grid_init(&a->grid, a->dim, reach);
+        a->grid_born = a->born;
     }
     vn_points points = vn_attractors_points(a);
     return vn_point_grid_update(&a->grid, &points, a->x.count);

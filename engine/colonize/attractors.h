@@ -39,6 +39,12 @@ enum {
     VN_OUSTED = 32, ///< by the new nodes that are being looked at just now
 };
 
+/// An attractor is not perceived while its nearest node is this one, has this first child (-1: none), and
+/// that one fewer tips than these.
+typedef struct vn_sleep {
+    int32_t node, child, tips;
+} vn_sleep;
+
 /// Nodes that keep most new ones from becoming neighbors of an attractor: its nearest neighbor, and what was
 /// found in its lunes.
 enum { VN_GUARDS = 4 };
@@ -104,7 +110,8 @@ struct vn_attractors {
     vn_box room;        ///< where new nodes can be, while `has_room`
     bool has_room;
 
-    vn_gaze gaze; ///< where it is open, `node` is the nearest that may still grow
+    VN_ARRAY(vn_sleep) sleep; ///< of attractors that were not perceived; may be shorter than the set
+    vn_gaze gaze;             ///< where it is open, `node` is the nearest that may still grow
 
     // What the remembered nodes were taken from.
     uint64_t network_serial, network_moved;
@@ -124,17 +131,19 @@ struct vn_attractors {
     bool fresh_all;      ///< too many to list
     double consumed2;    ///< kill distance² up to which all the others were consumed
 
-    vn_point_grid grid;        ///< of the attractors, for `spacing`
+    vn_point_grid grid;        ///< of the attractors, for `spacing`, and for what vessels perceive
+    uint32_t grid_born;        ///< the next `id` when its cells were chosen
     VN_ARRAY(int32_t) present; ///< the public numbering
     uint64_t present_version;
 
-    double carry;              ///< the fraction of a dart that is still to be thrown
-    vn_domain *sight;          ///< what hides nodes from attractors
-    VN_ARRAY(int32_t) waiting; ///< those that no node sees yet
-    int32_t next_look;         ///< the network's step at which they look again
-    uint64_t roots_serial;     ///< the network whose roots were found inside the domain,
-    int32_t roots_inside;      ///< and how many those were
-    vn_domain *margin;         ///< what the dormant ones wait for
+    VN_ARRAY(int32_t) refusers; ///< of darts, by where these fell (throw.c)
+    double carry;               ///< the fraction of a dart that is still to be thrown
+    vn_domain *sight;           ///< what hides nodes from attractors
+    VN_ARRAY(int32_t) waiting;  ///< those that no node sees yet
+    int32_t next_look;          ///< the network's step at which they look again
+    uint64_t roots_serial;      ///< the network whose roots were found inside the domain,
+    int32_t roots_inside;       ///< and how many those were
+    vn_domain *margin;          ///< what the dormant ones wait for
     double margin_clearance;
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last
 };
@@ -184,9 +193,16 @@ vn_status vn_attractors_sync(vn_attractors *a, vn_network *network, int mode, do
 /// Drop all that is remembered of nodes; the next sync looks anew.
 void vn_attractors_forget(vn_attractors *a);
 
-/// Where the gaze is open: attractors whose node cannot grow any more turn to the nearest that can, within
-/// @p reach, and what is farther off is forgotten.
-vn_status vn_attractors_turn(vn_attractors *a, vn_network *network, double reach);
+// turn.c: the attractors of vessels, where the gaze is open.
+/// How far they look, or 0 where that is anywhere.
+double vn_attractors_reach(const vn_attractors *a);
+/// Let attractor @p i remember the nearest node that can still grow.
+vn_status vn_look_for_grower(vn_attractors *a, vn_network *network, int32_t i);
+/// Hand every attractor of the active ones that is perceived to @p push, with its node, both within @p within
+/// of each other. Those whose node cannot grow any more turn to another one.
+vn_status vn_attractors_turn(vn_attractors *a, vn_network *network, double within,
+                             vn_status (*push)(void *payload, int32_t attractor, int32_t node),
+                             void *payload);
 
 /// Remember that attractor @p i has a node at squared distance @p d2 that it did not have before.
 vn_status vn_attractors_note_fresh(vn_attractors *a, int32_t i, double d2);

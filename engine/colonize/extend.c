@@ -19,7 +19,8 @@ static const vn_field extend_fields[] = {
     {"bias_mean", VN_BOOL, 0, offsetof(vn_extend_def, bias_mean), 0, 0, "", NULL,
      "weigh the mean of the directions to attractors against that, rather than their sum"},
     {"bifurcate", VN_F64, VN_OPTIONAL, offsetof(vn_extend_def, bifurcate), 0, 180, "degrees", NULL,
-     "φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none does"},
+     "φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none "
+     "does"},
 };
 const vn_schema vn_extend_schema =
     VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);

@@ -9,7 +9,8 @@ static const vn_field influence_fields[] = {
     {"within", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_influence_def, within), 0, VN_HUGE, "length",
      NULL, "attraction distance: nodes farther away are not influenced; left out: any distance"},
     {"perception", VN_MIXED, 0, offsetof(vn_influence_def, perception), 0, 0, "", "table {angle=, lateral=}",
-     "what the nodes of a vessel perceive (Rauch & Harders, Equations 2 and 3); left out: they look all around"},
+     "what the nodes of a vessel perceive (Rauch & Harders, Equations 2 and 3); left out: they look all "
+     "around"},
 };
 const vn_schema vn_influence_schema =
     VN_SCHEMA("influence", "Which attractors influence which nodes", influence_fields, influence_default);
@@ -68,6 +69,10 @@ static vn_status push_pair(vn_influence *influence, int32_t attractor, int32_t n
     return vn_array_push(&influence->node, node);
 }
 
+static vn_status push_to(void *influence, int32_t attractor, int32_t node) {
+    return push_pair(influence, attractor, node);
+}
+
 // A touched attractor draws only the veins that it waits for.
 static bool draws(const vn_attractors *a, int32_t i, const vn_tie *tie) {
     bool tagged = (a->stage.data[i] & VN_TOUCHED) && a->tagging;
@@ -94,22 +99,6 @@ static vn_status list_ties(vn_influence *influence, int32_t i, double within2) {
     return VN_OK;
 }
 
-static bool perceives(const vn_attractors *a, const vn_network *network, int32_t i) {
-    if (!vn_gaze_is_open(&a->gaze)) {
-        return true;
-    }
-    vn_zone zone;
-    double p[3], d[3];
-    int32_t node = a->node.data[i];
-    vn_zone_find(&zone, &a->gaze, network, node);
-    vn_network_position(network, node, p);
-    vn_attractors_place(a, i, d);
-    for (int k = 0; k < 3; k++) {
-        d[k] -= p[k];
-    }
-    return vn_zone_holds(&zone, d, 0);
-}
-
 static vn_status list_pairs(vn_influence *influence, double within) {
     vn_attractors *a = influence->attractors;
     double within2 = within * within;
@@ -122,7 +111,7 @@ static vn_status list_pairs(vn_influence *influence, double within) {
         }
         if (a->mode != VN_NEAREST) {
             VN_TRY(list_ties(influence, i, within2));
-        } else if (a->near2.data[i] <= within2 && perceives(a, influence->network, i)) {
+        } else if (a->near2.data[i] <= within2) {
             VN_TRY(push_pair(influence, i, a->node.data[i]));
         }
     }
@@ -131,11 +120,12 @@ static vn_status list_pairs(vn_influence *influence, double within) {
 
 // Other options change what each attractor has to remember.
 static vn_status open_gaze(vn_attractors *a, const vn_network *network, const vn_perception *perception) {
-    bool open = vn_gaze_is_open(&a->gaze), lateral = a->gaze.perception.lateral;
-    VN_TRY(vn_gaze_prepare(&a->gaze, network, perception));
+    bool open = vn_gaze_is_open(&a->gaze), lateral = a->gaze.perception.lateral, changed;
+    VN_TRY(vn_gaze_prepare(&a->gaze, network, perception, &changed));
     if (open != vn_gaze_is_open(&a->gaze) || (open && lateral != perception->lateral)) {
         vn_attractors_forget(a);
     }
+    a->sleep.count = changed || a->network_serial != network->serial ? 0 : a->sleep.count;
     if (vn_gaze_is_open(&a->gaze) && (network->recount || network->pending.count > 0)) {
         vn_network_settle(network);
     }
@@ -154,8 +144,8 @@ static vn_status find(vn_influence *influence, vn_attractors *a, vn_network *net
     VN_TRY(open_gaze(a, network, &def->perception));
     VN_TRY(vn_attractors_sync(a, network, def->mode, within));
     VN_TRY(renew_active(a));
-    VN_TRY(vn_attractors_turn(a, network, within));
-    VN_TRY(list_pairs(influence, within));
+    VN_TRY(vn_gaze_is_open(&a->gaze) ? vn_attractors_turn(a, network, within, push_to, influence)
+                                     : list_pairs(influence, within));
     influence->attractors_version = a->version;
     influence->network_version = network->version;
     influence->network_serial = network->serial;

@@ -29,11 +29,14 @@ static bool is_ready(const vn_gaze *gaze, const vn_network *network, const vn_pe
            gaze->perception.lateral == perception->lateral;
 }
 
-vn_status vn_gaze_prepare(vn_gaze *gaze, const vn_network *network, const vn_perception *perception) {
+vn_status vn_gaze_prepare(vn_gaze *gaze, const vn_network *network, const vn_perception *perception,
+                          bool *changed) {
+    *changed = false;
     VN_TRY(vn_check_def(&vn_perception_schema, perception));
     if (perception->angle > 0 && !network->murray) {
-        return vn_fail(VN_INVALID, "influence.perception: the angles of branches follow from Murray's law: give the "
-                                   "network murray = {exponent=, tip_radius=}");
+        return vn_fail(VN_INVALID,
+                       "influence.perception: the angles of branches follow from Murray's law: give the "
+                       "network murray = {exponent=, tip_radius=}");
     }
     double exponent = network->law.exponent;
     if (perception->angle > 0 && !(exponent > 2 && exponent <= 4)) {
@@ -45,6 +48,7 @@ vn_status vn_gaze_prepare(vn_gaze *gaze, const vn_network *network, const vn_per
     if (is_ready(gaze, network, perception)) {
         return VN_OK;
     }
+    *changed = true;
     double half = perception->angle * (PI / 360);
     gaze->perception = *perception;
     gaze->exponent = exponent;
@@ -78,6 +82,14 @@ static bool find_direction(const vn_network *network, int32_t node, double e[3])
 
 static const double ANY = 2; // no cosine is beyond it
 
+void vn_zone_turn(vn_zone *zone, const vn_gaze *gaze, int32_t tips) {
+    double c = cosine_of(gaze, tips), s = sqrt(1 - c * c);
+    zone->cosine = c;
+    zone->sine = s;
+    zone->low_cos = -c < gaze->half_cos ? c * gaze->half_cos - s * gaze->half_sin : -ANY;
+    zone->high_cos = c < gaze->half_cos ? c * gaze->half_cos + s * gaze->half_sin : ANY;
+}
+
 void vn_zone_find(vn_zone *zone, const vn_gaze *gaze, const vn_network *network, int32_t node) {
     *zone = (vn_zone){.kind = VN_ZONE_NONE, .cosine = 1, .low_cos = -ANY, .high_cos = ANY};
     int32_t child = network->first_child.data[node];
@@ -93,11 +105,7 @@ void vn_zone_find(vn_zone *zone, const vn_gaze *gaze, const vn_network *network,
         zone->low_cos = gaze->half_cos > -1 ? gaze->half_cos : -ANY;
         return;
     }
-    double c = cosine_of(gaze, network->tips.data[child]), s = sqrt(1 - c * c);
-    zone->cosine = c;
-    zone->sine = s;
-    zone->low_cos = -c < gaze->half_cos ? c * gaze->half_cos - s * gaze->half_sin : -ANY;
-    zone->high_cos = c < gaze->half_cos ? c * gaze->half_cos + s * gaze->half_sin : ANY;
+    vn_zone_turn(zone, gaze, network->tips.data[child]);
 }
 
 bool vn_zone_holds(const vn_zone *zone, const double d[3], double slack) {
@@ -113,7 +121,8 @@ vn_status vn_network_zone(const vn_network *network, int32_t node, const vn_perc
                           vn_zone_shape *out) {
     vn_gaze gaze = {.exponent = 0};
     vn_zone zone;
-    VN_TRY(vn_gaze_prepare(&gaze, network, perception));
+    bool changed;
+    VN_TRY(vn_gaze_prepare(&gaze, network, perception, &changed));
     if (node < 0 || node >= network->x.count) {
         return vn_fail(VN_INVALID, "node %d is not one of the %d there are", node, network->x.count);
     }

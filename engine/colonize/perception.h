@@ -10,13 +10,15 @@ enum { VN_TABLED_TIPS = 256 };
 /// The options of all nodes, made ready.
 typedef struct vn_gaze {
     vn_perception perception;
-    double exponent;          ///< Murray's
-    double half_cos, half_sin; ///< of γ/2
+    double exponent;                    ///< Murray's
+    double half_cos, half_sin;          ///< of γ/2
     double lateral_cos[VN_TABLED_TIPS]; ///< of α, by the tips of the child that is there; [0] is unused
 } vn_gaze;
 
-/// Make it ready. VN_INVALID where the network has no law to take α from, or one without such an angle.
-vn_status vn_gaze_prepare(vn_gaze *gaze, const vn_network *network, const vn_perception *perception);
+/// Make it ready. @p changed: it was not already. VN_INVALID where the network has no law to take α
+/// from, or one without such an angle.
+vn_status vn_gaze_prepare(vn_gaze *gaze, const vn_network *network, const vn_perception *perception,
+                          bool *changed);
 
 static inline bool vn_gaze_is_open(const vn_gaze *gaze) {
     return gaze->perception.angle > 0;
@@ -32,11 +34,14 @@ static inline bool vn_gaze_may_grow(const vn_gaze *gaze, const vn_network *netwo
 /// The perception volume of one node, as the tips above it stood when they were last counted.
 typedef struct vn_zone {
     vn_zone_kind kind;
-    double e[3];               ///< direction of the parent edge, or the root's heading
-    double cosine, sine;       ///< of α; 1 and 0 in a cone
+    double e[3];              ///< direction of the parent edge, or the root's heading
+    double cosine, sine;      ///< of α; 1 and 0 in a cone
     double low_cos, high_cos; ///< of the angle to e: what is perceived lies between
 } vn_zone;
 void vn_zone_find(vn_zone *zone, const vn_gaze *gaze, const vn_network *network, int32_t node);
+
+/// Turn an inter-node's zone to where it is when the child has so many tips.
+void vn_zone_turn(vn_zone *zone, const vn_gaze *gaze, int32_t tips);
 
 /// Whether the direction @p d, of any length above 0, lies in the zone, @p slack in cosines beyond it
 /// included.

@@ -145,9 +145,45 @@ static vn_status sort_nodes(vn_attractors *a, const vn_network *network, int32_t
     return vn_points_sort(&points, a->dim, low, size, &a->nodes, &a->scratch);
 }
 
+typedef struct showing {
+    vn_attractors *a;
+    const vn_network *network;
+    int32_t node, seen;
+    double p[3];
+    vn_status status;
+} showing;
+
+static bool show_to(int32_t i, void *payload) {
+    showing *s = payload;
+    vn_points points = vn_attractors_points(s->a);
+    double d2 = vn_points_distance2(&points, i, s->p);
+    if (i < s->seen && d2 <= s->a->near2.data[i]) {
+        s->status = show(s->a, s->network, i, s->node, d2);
+    }
+    return s->status != VN_OK;
+}
+
+// Where sight ends near by, and attractors come and go with every step, a grid of them is cheaper than a
+// tree.
+static vn_status show_around(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {
+    double reach = nextafter(sqrt(a->reach2), INFINITY);
+    vn_points points = vn_attractors_points(a);
+    VN_TRY(vn_attractors_grid(a, reach));
+    for (int32_t node = begin; node < network->x.count; node++) {
+        showing s = {.a = a, .network = network, .node = node, .seen = seen};
+        vn_network_position(network, node, s.p);
+        vn_point_grid_any_within(&a->grid, &points, s.p, reach, show_to, &s);
+        VN_TRY(s.status);
+    }
+    return vn_poll();
+}
+
 static vn_status show_nodes(vn_attractors *a, const vn_network *network, int32_t begin, int32_t seen) {
     if (begin >= network->x.count || seen == 0) {
         return VN_OK;
+    }
+    if (vn_gaze_is_open(&a->gaze) && isfinite(a->reach2)) {
+        return show_around(a, network, begin, seen);
     }
     VN_TRY(renew_tree(a, network->x.count - begin));
     VN_TRY(sort_nodes(a, network, begin));
@@ -182,73 +218,13 @@ static void look_range(int64_t begin, int64_t end, void *payload) {
     }
 }
 
-typedef struct growers {
-    const vn_attractors *a;
-    const vn_network *network;
-} growers;
-
-static bool accept_grower(int32_t node, void *payload) {
-    const growers *g = payload;
-    return vn_gaze_may_grow(&g->a->gaze, g->network, node);
-}
-
-// The nearest node that can still grow, however many nearer ones cannot.
-static vn_status look_for_grower(vn_attractors *a, vn_network *network, int32_t i) {
-    const vn_point_grid *grid;
-    growers payload = {a, network};
-    vn_points nodes = vn_network_points(network);
-    double p[3];
-    vn_nearest query = {.reach2 = a->reach2,
-                        .seed = a->seed,
-                        .id = a->id.data[i],
-                        .accept = accept_grower,
-                        .payload = &payload};
-    VN_TRY(vn_network_grid(network, 0, &grid));
-    vn_attractors_place(a, i, p);
-    vn_point_grid_nearest(grid, &nodes, p, &query);
-    if (query.point >= 0 && a->node.data[i] < 0) {
-        VN_TRY(vn_array_push(&a->activated, ((vn_keyed){(uint64_t)i, i})));
-    }
-    a->node.data[i] = query.point;
-    a->near2.data[i] = query.point >= 0 ? query.reach2 : a->reach2;
-    a->best.data[i] = INFINITY;
-    vn_reach_tree_raise(&a->tree, p, a->near2.data[i]);
-    return VN_OK;
-}
-
-static void narrow(vn_attractors *a, double reach2) {
-    for (int32_t i = 0; i < a->x.count; i++) {
-        if (a->near2.data[i] > reach2) {
-            a->near2.data[i] = reach2;
-            a->node.data[i] = -1;
-        }
-    }
-    a->reach2 = reach2;
-}
-
-vn_status vn_attractors_turn(vn_attractors *a, vn_network *network, double reach) {
-    if (!vn_gaze_is_open(&a->gaze)) {
-        return VN_OK;
-    }
-    if (reach * reach < 0.5 * a->reach2) {
-        narrow(a, reach * reach);
-    }
-    for (int32_t k = 0; k < a->active.count; k++) {
-        int32_t i = a->active.data[k], node = a->node.data[i];
-        if (node >= 0 && !vn_gaze_may_grow(&a->gaze, network, node)) {
-            VN_TRY(look_for_grower(a, network, i));
-        }
-    }
-    return VN_OK;
-}
-
 enum { LOOK_AT_ONCE = 1 << 15 };
 
 // Newcomers look for their nearest node in the network's grid.
 static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t begin) {
     const vn_point_grid *grid;
     VN_ARRAY(vn_nearest) found = {0};
-    VN_TRY(vn_network_grid(network, 0, &grid));
+    VN_TRY(vn_network_grid(network, vn_attractors_reach(a), &grid));
     vn_status status = VN_OK;
     for (int32_t first = begin; status == VN_OK && first < a->x.count; first += LOOK_AT_ONCE) {
         int32_t count = a->x.count - first < LOOK_AT_ONCE ? a->x.count - first : LOOK_AT_ONCE;
@@ -261,7 +237,8 @@ static vn_status look_for_nodes(vn_attractors *a, vn_network *network, int32_t b
             if (!vn_is_gone(a, first + k) && found.data[k].point >= 0) {
                 status = show(a, network, first + k, found.data[k].point, found.data[k].reach2);
                 bool none = status == VN_OK && a->node.data[first + k] < 0;
-                status = none && vn_gaze_is_open(&a->gaze) ? look_for_grower(a, network, first + k) : status;
+                status =
+                    none && vn_gaze_is_open(&a->gaze) ? vn_look_for_grower(a, network, first + k) : status;
             }
         }
         status = status == VN_OK ? vn_poll() : status;

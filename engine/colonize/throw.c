@@ -89,26 +89,102 @@ static vn_status prepare_clearing(clearing *c, vn_network *network, double clear
                                                    : vn_network_grid(network, clearance, &c->grid);
 }
 
-static bool is_clear(const clearing *c, const double p[3]) {
+// The nodes have no number to give where a tree answers: then it is 0.
+static bool is_clear(const clearing *c, const double p[3], int32_t *refuser) {
+    *refuser = -1;
     if (c->tree == NULL && c->grid == NULL) {
         return true;
     }
     vn_points nodes = vn_network_points(c->network);
     if (c->tree != NULL) {
-        return !vn_point_tree_any_within(c->tree, &nodes, p, c->reach);
+        *refuser = vn_point_tree_any_within(c->tree, &nodes, p, c->reach) ? 0 : -1;
+    } else {
+        *refuser = vn_point_grid_any_within(c->grid, &nodes, p, c->reach, NULL, NULL);
     }
-    return vn_point_grid_any_within(c->grid, &nodes, p, c->reach, NULL, NULL) < 0;
+    return *refuser < 0;
 }
 
-static vn_status stick(vn_attractors *a, double spacing, const double p[3], int32_t *accepted) {
+/// Who refused the last dart that fell where the next ones do: near saturation almost every dart is refused
+/// by the same few. A slot is shared by cells that are hashed alike; whoever is named in it is asked for his
+/// distance, so a wrong name costs time and nothing else.
+typedef struct refusals {
+    const clearing *nodes;
+    vn_attractors *a;
+    double cell, spacing2;
+} refusals;
+
+enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
+
+static vn_status prepare_refusals(refusals *r, vn_attractors *a, const clearing *nodes, double spacing) {
+    double nodes_reach = nodes->grid != NULL ? nodes->reach : 0,
+           own_reach = spacing > 0 ? beyond(spacing) : 0;
+    *r = (refusals){nodes, a, 0.5 * fmax(nodes_reach, own_reach), own_reach * own_reach};
+    int64_t points = (int64_t)a->x.count + (nodes->grid != NULL ? nodes->network->x.count : 0);
+    int32_t slots = a->refusers.count > 0 ? a->refusers.count : FEWEST_SLOTS;
+    while (slots < 4 * points && slots < MOST_SLOTS) {
+        slots *= 2;
+    }
+    if (slots == a->refusers.count) {
+        return VN_OK;
+    }
+    VN_TRY(vn_array_reserve(&a->refusers, slots));
+    memset(a->refusers.data, 0, (size_t)slots * sizeof *a->refusers.data);
+    a->refusers.count = slots;
+    return VN_OK;
+}
+
+// Coordinates of cells may be beyond any integer: their doubles are hashed.
+static int32_t *slot_of(const refusals *r, const double p[3]) {
+    uint64_t h = 0;
+    for (int k = 0; k < r->a->dim; k++) {
+        double cell = floor(p[k] / r->cell);
+        uint64_t bits;
+        memcpy(&bits, &cell, sizeof bits);
+        h = (h ^ bits) * 0x9E3779B97F4A7C15u;
+    }
+    return &r->a->refusers.data[(h >> 32) & (uint64_t)(r->a->refusers.count - 1)];
+}
+
+// A node's number above 0, or an attractor's below; 0: nobody.
+static bool is_refused_again(const refusals *r, int32_t refuser, const double p[3]) {
+    if (refuser > 0 && r->nodes->grid != NULL && refuser <= r->nodes->network->x.count) {
+        vn_points nodes = vn_network_points(r->nodes->network);
+        return vn_points_distance2(&nodes, refuser - 1, p) < r->nodes->reach * r->nodes->reach;
+    }
+    int32_t i = -1 - refuser;
+    vn_points points = vn_attractors_points(r->a);
+    return refuser < 0 && i < r->a->x.count && vn_points_distance2(&points, i, p) < r->spacing2 &&
+           !vn_is_gone(r->a, i);
+}
+
+static vn_status find_neighbour(vn_attractors *a, double spacing, const double p[3], int32_t *neighbour) {
+    *neighbour = -1;
     if (spacing > 0) {
         VN_TRY(vn_attractors_grid(a, spacing));
         vn_points points = vn_attractors_points(a);
-        if (vn_point_grid_any_within(&a->grid, &points, p, beyond(spacing), is_present, a) >= 0) {
-            return VN_OK;
-        }
+        *neighbour = vn_point_grid_any_within(&a->grid, &points, p, beyond(spacing), is_present, a);
     }
-    VN_TRY(vn_attractors_add(a, p));
+    return VN_OK;
+}
+
+static vn_status land_one(const refusals *r, double spacing, const double p[3], int32_t *accepted) {
+    int32_t refuser;
+    int32_t *slot = r->cell > 0 ? slot_of(r, p) : NULL;
+    if (slot != NULL && is_refused_again(r, *slot, p)) {
+        return VN_OK;
+    }
+    if (!is_clear(r->nodes, p, &refuser)) {
+        if (slot != NULL && r->nodes->grid != NULL) {
+            *slot = refuser + 1;
+        }
+        return VN_OK;
+    }
+    VN_TRY(find_neighbour(r->a, spacing, p, &refuser));
+    if (refuser >= 0) {
+        *slot = -1 - refuser;
+        return VN_OK;
+    }
+    VN_TRY(vn_attractors_add(r->a, p));
     ++*accepted;
     return VN_OK;
 }
@@ -116,11 +192,11 @@ static vn_status stick(vn_attractors *a, double spacing, const double p[3], int3
 static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count,
                       int32_t *accepted) {
     clearing nodes;
+    refusals r;
     VN_TRY(prepare_clearing(&nodes, def->network, def->clearance));
+    VN_TRY(prepare_refusals(&r, a, &nodes, def->spacing));
     for (int32_t k = 0; k < count; k++) {
-        if (is_clear(&nodes, v->at[k])) {
-            VN_TRY(stick(a, def->spacing, v->at[k], accepted));
-        }
+        VN_TRY(land_one(&r, def->spacing, v->at[k], accepted));
     }
     return vn_poll();
 }
@@ -281,7 +357,8 @@ vn_status vn_release(vn_attractors *a, vn_network *network, int32_t *released) {
     int32_t count = 0;
     while (a->dormant.count > 0 && a->dormant.data[a->dormant.count - 1].arrival <= length) {
         const vn_dormant *next = &a->dormant.data[a->dormant.count - 1];
-        if (is_clear(&nodes, next->p)) {
+        int32_t refuser;
+        if (is_clear(&nodes, next->p, &refuser)) {
             VN_TRY(vn_attractors_add(a, next->p));
             count++;
         }

@@ -1,5 +1,7 @@
 #include "domain/domain.h"
 
+#include "base/hash.h"
+
 #include "space/points.h"
 
 void *vn_domain_new(const vn_domain_kind *kind, size_t size, int dim) {
@@ -165,7 +167,7 @@ vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     for (int tries = 0; tries < 1000000; tries++) {
         p[2] = 0;
         for (int k = 0; k < domain->dim; k++) {
-            p[k] = vn_rng_uniform(rng, domain->bounds.min[k], domain->bounds.max[k]);
+            p[k] = vn_uniform_here(rng, domain->bounds.min[k], domain->bounds.max[k]);
         }
         if (domain->kind->contains(domain, p)) {
             return VN_OK;

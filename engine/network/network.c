@@ -432,10 +432,10 @@ static double typical_spacing(const vn_network *network) {
     return size > 0 ? 2 * size / cells : 1;
 }
 
-// A grid serves queries of up to eight times its cell, and down to an eighth of it, at little loss.
 vn_status vn_network_grid(vn_network *network, double reach, const vn_point_grid **grid) {
     vn_point_grid *g = &network->grid;
-    bool fits = g->cell > 0 && (reach <= 0 || (reach <= 8 * g->cell && g->cell <= 8 * reach));
+    bool grown = network->x.count > network->grid_count + network->grid_count / 4 + 64;
+    bool fits = reach <= 0 ? g->cell > 0 : vn_point_grid_fits(g, reach, grown);
     bool outgrown = g->cell > 0 && reach <= 0 && network->x.count > 16 * ((int64_t)network->grid_count + 4);
     if (!fits || outgrown || network->grid_moved != network->moved) {
         vn_point_grid_free(g);

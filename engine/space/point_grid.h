@@ -21,6 +21,12 @@ static inline int32_t vn_point_grid_count(const vn_point_grid *grid) {
     return grid->next.count;
 }
 
+/// Whether its cells are of use for queries of @p reach: up to eight times their width, and down to an eighth
+/// of it. Where new cells would soon be paid for (@p thrifty), half as wide ones are asked for sooner.
+static inline bool vn_point_grid_fits(const vn_point_grid *grid, double reach, bool thrifty) {
+    return grid->cell > 0 && reach <= 8 * grid->cell && grid->cell <= (thrifty ? 1.5 : 8) * reach;
+}
+
 /// Insert the points up to @p count that are not yet in it.
 vn_status vn_point_grid_update(vn_point_grid *grid, const vn_points *points, int32_t count);
 

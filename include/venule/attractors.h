@@ -126,15 +126,15 @@ typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
     vn_domain *domain; ///< an edge that would leave it is not made, and new nodes are brought onto it where
                        ///< it is a surface; held by the attractors; may be NULL
-    int meet; ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
-              ///< it ends there, joined to the other vein; 2 "stop": it does not grow, and attractors that
-              ///< draw no other node are retired (both in 2D)
-    double bias; ///< ω, 0 to 1, with perception: how much of the parent's direction, or of the optimal branch,
-                 ///< is in the new segment's (Equation 4); default 0
-    bool bias_mean; ///< with perception: weigh ω against the mean of the directions to the attractors, of
-                    ///< length 1; default false: against their sum, as printed (READINGS R18)
-    double bifurcate; ///< φ, degrees, 0 to 180, with perception: a leaf forks symmetrically where its attractors
-                      ///< deviate more from their mean direction (R19); default -1: never
+    int meet;    ///< what a vein does that would cross another one: 0 "cross", as in the papers; 1 "join":
+                 ///< it ends there, joined to the other vein; 2 "stop": it does not grow, and attractors that
+                 ///< draw no other node are retired (both in 2D)
+    double bias; ///< ω, 0 to 1, with perception: how much of the parent's direction, or of the optimal
+                 ///< branch, is in the new segment's (Equation 4); default 0
+    bool bias_mean;   ///< with perception: weigh ω against the mean of the directions to the attractors, of
+                      ///< length 1; default false: against their sum, as printed (READINGS R18)
+    double bifurcate; ///< φ, degrees, 0 to 180, with perception: a leaf forks symmetrically where its
+                      ///< attractors deviate more from their mean direction (R19); default -1: never
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that
@@ -142,10 +142,11 @@ VN_API vn_extend_def vn_extend_def_default(void);
 /// (READINGS R3). Where the edge would leave the domain, each of the attractors is tried alone, then given to
 /// the nearest node that sees it, or it waits for one; what still waits when nothing else can grow is
 /// retired. Under perception a leaf grows one segment or forks in two, an inter-node gets one lateral, and a
-/// node that cannot grow into its zone without leaving the domain lets its attractors idle. @p added gets how many nodes and joins there are more, @p first the index of the first such node.
-/// Counts the network's step on. When it adds none, and neither attractors nor domain change, no later call
-/// will; but where attractors influence several nodes each, some may stand in each other's way until, after
-/// two dozen calls, they are given up.
+/// node that cannot grow into its zone without leaving the domain lets its attractors idle. @p added gets how
+/// many nodes and joins there are more, @p first the index of the first such node. Counts the network's step
+/// on. When it adds none, and neither attractors nor domain change, no later call will; but where attractors
+/// influence several nodes each, some may stand in each other's way until, after two dozen calls, they are
+/// given up.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,
                            int32_t *added, int32_t *first);
 

@@ -263,7 +263,8 @@ static const vnl_function methods[] = {
     {"heading", network_heading, "(root: integer, x: number, y: number, z?: number)", NULL,
      "The direction that the first segment from a root is to take, for what the root perceives.", NULL},
     {"zone", network_zone,
-     "(node: integer, options: venule.perception.Options): {kind: string, angle: number, direction: number[]}",
+     "(node: integer, options: venule.perception.Options): {kind: string, angle: number, direction: "
+     "number[]}",
      NULL,
      "What a vessel's node perceives (Rauch & Harders, Equations 2 and 3): a \"cone\" around `direction`, a "
      "\"belt\" at `angle` degrees from it, the whole \"ball\", or \"none\" when it cannot grow any more.",
