@@ -4,8 +4,12 @@
 static const double FARTHEST_CELL = 1e15;
 
 static int64_t cell_of(const vn_point_grid *grid, double coordinate) {
-    double cell = floor(coordinate / grid->cell);
-    return (int64_t)fmin(fmax(cell, -FARTHEST_CELL), FARTHEST_CELL);
+    double cell = coordinate / grid->cell;
+    if (!(cell > -FARTHEST_CELL && cell < FARTHEST_CELL)) {
+        return cell > 0 ? (int64_t)FARTHEST_CELL : -(int64_t)FARTHEST_CELL;
+    }
+    int64_t whole = (int64_t)cell; // toward 0; floor() and fmin() are calls on plain x86-64
+    return whole - (cell < (double)whole);
 }
 
 static void cells_of(const vn_point_grid *grid, const double p[3], int64_t cell[3]) {
@@ -172,8 +176,13 @@ int32_t vn_point_grid_any_within(const vn_point_grid *grid, const vn_points *poi
                                  double radius, vn_point_accept_fn *accept, void *payload) {
     vn_nearest query = {.reach2 = radius * radius, .point = -1, .accept = accept, .payload = payload};
     walk w = {grid, points, p, ask_within, &query};
-    cell_box box = box_around(grid, p, radius);
-    ask_box(&w, &box);
+    int64_t centre[3] = {0};
+    cells_of(grid, p, centre);
+    // Where most askers have a neighbour, they have one in their own cell.
+    if (grid->next.count == 0 || !ask_cell(&w, centre[0], centre[1], centre[2])) {
+        cell_box box = box_around(grid, p, radius);
+        ask_box(&w, &box);
+    }
     return query.point;
 }
 
