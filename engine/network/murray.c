@@ -65,6 +65,11 @@ void vn_network_settle(const vn_network *constant) {
 
 vn_status vn_network_murray(vn_network *network, const vn_murray_def *def) {
     VN_TRY(vn_check_def(&vn_murray_schema, def));
+    if (network->murray && network->law.exponent == def->exponent && network->law.veinlets == def->veinlets) {
+        network->law.tip_radius = def->tip_radius; // the tips' part in growing tissue: no count changes
+        network->version++;
+        return VN_OK;
+    }
     VN_TRY(vn_array_reserve(&network->tips, network->x.count));
     if (network->joins.count > 0 || def->veinlets > 0) {
         VN_TRY(vn_demand_reserve(network, network->x.count, network->joins.count));

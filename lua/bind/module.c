@@ -205,6 +205,7 @@ int luaopen_venule(lua_State *L) {
     merge_embedded(L, "venule.venation");
     merge_embedded(L, "venule.brochidodromous");
     merge_embedded(L, "venule.cco");
+    merge_embedded(L, "venule.vessels");
     make_strict(L, "venule");
     return 1;
 }

@@ -321,6 +321,37 @@ function venule.brochidodromous(options) end
 ---@return venule.CcoSystem
 function venule.cco(options) end
 
+---@class (exact) venule.vessels.Options
+---@field domain any # the tissue: a domain, or a growth
+---@field rng any # the random numbers: venule.rng(seed)
+---@field arteries table # {roots = {…}}, or network =, with options that are to hold for arteries alone
+---@field veins? table # likewise; left out: none grow
+---@field steps? number # how many; left out where there are stages or the domain grows by itself: theirs
+---@field growth? number # Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays
+---@field stages? table # {{steps = 100, …}, …}: one after the other, each with options of its own
+---@field avoid? boolean # arteries and veins keep clear of one another, as tubes of their radii
+---@field unit? string # length unit that files carry
+---@field perception_distance? number # δ: drains farther than this draw no vessel
+---@field satisfaction? number # ε_k: a vessel this close satisfies a drain
+---@field segment_length? number # d: the length a vessel gains in a step
+---@field tip_radius? number # r: radius of the last segments
+---@field perception_angle? number # γ: a leaf perceives what lies within half of it on either side of its direction, an inter-node around the optimal branch
+---@field bias? number # ω: how much of its own direction a vessel keeps, or of the optimal branch: 1 grows straight on
+---@field bias_mean? boolean # weigh ω against the mean of the directions to drains, as the authors' program does; false: against their sum, as printed
+---@field bifurcation_threshold? number # φ: a leaf whose drains lie farther apart forks symmetrically
+---@field bifurcate? boolean # whether leaves fork at all
+---@field lateral? boolean # whether inter-nodes grow laterals
+---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
+---@field darts? integer # thrown in each step; left out, with density: 1000
+---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
+---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
+---@field drain_clearance? number # ε_n: and this far from arteries
+
+---Arteries and veins that grow together (Rauch & Harders 2021), ready to grow: `s:run{progress=}`, `s:step()` (false when done), `s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`. Lengths are those at the size that the tissue has at first; left out, they are parts of the domain's longest side. What `arteries`, `veins` and a stage may say is below. The loop is plain Lua in lua/venule/vessels.lua; copy it when an option is not enough.
+---@param options venule.vessels.Options
+---@return venule.VesselsSystem
+function venule.vessels(options) end
+
 ---@class (exact) venule.plot.Options
 ---@field width? number # of the whole picture; 96 pixels are an inch on paper
 ---@field height? number # of the whole picture
@@ -352,6 +383,41 @@ function venule.plot(options) end
 ---@class (exact) venule.cco.stage.Options
 ---@field domain? any # the part that terminals fall into; left out: the whole domain
 ---@field terminals integer # how many more each tree is to have then
+
+---@class (exact) venule.vessels.tree.Options
+---@field roots? table # where trees begin: {{x, y}, …} or {{x, y, z}, …}, each with heading = {x, y} where its first segment has a direction
+---@field network? any # a network to go on from, besides roots
+---@field perception_distance? number # δ: drains farther than this draw no vessel
+---@field satisfaction? number # ε_k: a vessel this close satisfies a drain
+---@field segment_length? number # d: the length a vessel gains in a step
+---@field tip_radius? number # r: radius of the last segments
+---@field perception_angle? number # γ: a leaf perceives what lies within half of it on either side of its direction, an inter-node around the optimal branch
+---@field bias? number # ω: how much of its own direction a vessel keeps, or of the optimal branch: 1 grows straight on
+---@field bias_mean? boolean # weigh ω against the mean of the directions to drains, as the authors' program does; false: against their sum, as printed
+---@field bifurcation_threshold? number # φ: a leaf whose drains lie farther apart forks symmetrically
+---@field bifurcate? boolean # whether leaves fork at all
+---@field lateral? boolean # whether inter-nodes grow laterals
+---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
+
+---@class (exact) venule.vessels.stage.Options
+---@field steps integer # how many
+---@field arteries? table # options that are to hold for arteries alone
+---@field veins? table # options that are to hold for veins alone
+---@field perception_distance? number # δ: drains farther than this draw no vessel
+---@field satisfaction? number # ε_k: a vessel this close satisfies a drain
+---@field segment_length? number # d: the length a vessel gains in a step
+---@field tip_radius? number # r: radius of the last segments
+---@field perception_angle? number # γ: a leaf perceives what lies within half of it on either side of its direction, an inter-node around the optimal branch
+---@field bias? number # ω: how much of its own direction a vessel keeps, or of the optimal branch: 1 grows straight on
+---@field bias_mean? boolean # weigh ω against the mean of the directions to drains, as the authors' program does; false: against their sum, as printed
+---@field bifurcation_threshold? number # φ: a leaf whose drains lie farther apart forks symmetrically
+---@field bifurcate? boolean # whether leaves fork at all
+---@field lateral? boolean # whether inter-nodes grow laterals
+---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
+---@field darts? integer # thrown in each step; left out, with density: 1000
+---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
+---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
+---@field drain_clearance? number # ε_n: and this far from arteries
 
 ---@class (exact) venule.plot.axis.Options
 ---@field label? string # what it measures, and the unit
@@ -572,6 +638,27 @@ function CcoSystem:step() end
 ---@return venule.CcoSystem|false
 ---@return string? why
 function CcoSystem:run(options) end
+
+---@class venule.VesselsSystem
+---@field arteries venule.Network
+---@field veins? venule.Network
+---@field networks table<string, venule.Network> # both, by name
+---@field drains venule.Attractors # oxygen drains, which arteries grow toward
+---@field sources venule.Attractors # of carbon dioxide, which veins grow toward
+---@field tissue venule.Growth # where; `tissue.unit` is today's unit of length
+---@field time integer # steps taken
+---@field steps integer # of all stages
+---@field stage integer # which is under way
+local VesselsSystem = {}
+
+---Grow by one step; false when done.
+---@return boolean
+function VesselsSystem:step() end
+
+---Grow to the end.
+---@param options? {progress?: boolean|fun(system: venule.VesselsSystem)}
+---@return venule.VesselsSystem
+function VesselsSystem:run(options) end
 
 ---@class venule.Venation
 ---@field network venule.Network
@@ -890,10 +977,30 @@ function Network:join(a, b, radius) end
 ---@param options venule.murray.Options
 function Network:murray(options) end
 
+---The direction that the first segment from a root is to take, for what the root perceives.
+---@param root integer
+---@param x number
+---@param y number
+---@param z? number
+function Network:heading(root, x, y, z) end
+
+---@class (exact) venule.perception.Options
+---@field angle number # γ: a leaf perceives what lies within half of it on either side of its direction, degrees
+---@field lateral? boolean # whether inter-nodes perceive too, around Murray's optimal branch, and grow laterals (default true)
+
+---What a vessel's node perceives (Rauch & Harders, Equations 2 and 3): a "cone" around `direction`, a "belt" at `angle` degrees from it, the whole "ball", or "none" when it cannot grow any more.
+---@param node integer
+---@param options venule.perception.Options
+---@return {kind: string, angle: number, direction: number[]}
+function Network:zone(node, options) end
+
 ---@class (exact) venule.extend.Options
 ---@field length number # D, the length of a new vein segment, length
 ---@field domain? venule.Domain|venule.Growth # an edge that would leave it is not made; its attractor turns to the nearest node that sees it
 ---@field meet? "cross"|"join"|"stop" # what a vein does that would cross another one: go on across it, as in the papers, end there, joined to it, or not grow (both in 2D); what drew that vein alone is then given up (default "cross")
+---@field bias? number # ω, with perception: how much of a vessel's own direction is in that of its next segment (default 0)
+---@field bias_mean? boolean # weigh the mean of the directions to attractors against that, rather than their sum (default false)
+---@field bifurcate? number # φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none does, degrees
 
 ---Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.
 ---@param influence venule.Influence
@@ -993,6 +1100,7 @@ function Attractors:throw(options) end
 ---@class (exact) venule.influence.Options
 ---@field mode? "nearest"|"relative"|"urquhart" # which nodes an attractor influences: the nearest one (open venation, Runions §3), its relative neighbors (closed venation, §4), or the Urquhart approximation of these (§5.2) (default "nearest")
 ---@field within? number # attraction distance: nodes farther away are not influenced; left out: any distance, length
+---@field perception? any # what the nodes of a vessel perceive (Rauch & Harders, Equations 2 and 3); left out: they look all around
 
 ---Which attractors influence which nodes; good until the attractors or the network change.
 ---@param network venule.Network

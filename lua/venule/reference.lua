@@ -36,6 +36,12 @@ local functions = {
     .. "to n, and gives how many came in all. `s.network` is the tree as it is now, with radius, flow and pressure; of several trees, "
     .. "`s.networks` has all by name, and so has `s.arteries`; `s.report`, `s.volume`, `s.fraction`, `s.done`, `s.domain`. Units are mm, "
     .. "Pa, mm³/s and Pa·s; 1 mmHg is 133.322 Pa, 1 mL/min is 1000 / 60 mm³/s. What a tree of `trees` and a stage may say is below."},
+  {name = "vessels", owner = "venule", arguments = "options", types = {options = "venule.vessels.Options"}, rows = "vessels",
+    returns = "venule.VesselsSystem", doc =
+    "Arteries and veins that grow together (Rauch & Harders 2021), ready to grow: `s:run{progress=}`, `s:step()` (false when done), "
+    .. "`s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`. Lengths are those at the size that the "
+    .. "tissue has at first; left out, they are parts of the domain's longest side. What `arteries`, `veins` and a stage may say is below. "
+    .. "The loop is plain Lua in lua/venule/vessels.lua; copy it when an option is not enough."},
   {name = "plot", owner = "venule", arguments = "options", types = {options = "venule.plot.Options"}, rows = "plot",
     returns = "venule.Canvas", doc =
     "Numbers as a figure, on a canvas to save or draw on: lines and dots, deviations as bars or bands, plain or logarithmic axes. "
@@ -106,6 +112,10 @@ page[#page + 1] = "\nA tree of venule.cco, one of `trees`:\n"
 write_rows("cco.tree", venule.cco_branch_rows)
 page[#page + 1] = "\nA stage of venule.cco, one of `stages`:\n"
 write_rows("cco.stage", venule.cco_stage_rows)
+page[#page + 1] = "\nArteries or veins of venule.vessels:\n"
+write_rows("vessels.tree", venule.vessels_branch_rows)
+page[#page + 1] = "\nA stage of venule.vessels, one of `stages`:\n"
+write_rows("vessels.stage", venule.vessels_stage_rows)
 page[#page + 1] = "\nAn axis of a plot:\n"
 write_rows("plot.axis", venule.plot_axis_rows)
 page[#page + 1] = "\nA series of a plot:\n"
@@ -167,6 +177,27 @@ function CcoSystem:step() end
 ---@return venule.CcoSystem|false
 ---@return string? why
 function CcoSystem:run(options) end
+
+---@class venule.VesselsSystem
+---@field arteries venule.Network
+---@field veins? venule.Network
+---@field networks table<string, venule.Network> # both, by name
+---@field drains venule.Attractors # oxygen drains, which arteries grow toward
+---@field sources venule.Attractors # of carbon dioxide, which veins grow toward
+---@field tissue venule.Growth # where; `tissue.unit` is today's unit of length
+---@field time integer # steps taken
+---@field steps integer # of all stages
+---@field stage integer # which is under way
+local VesselsSystem = {}
+
+---Grow by one step; false when done.
+---@return boolean
+function VesselsSystem:step() end
+
+---Grow to the end.
+---@param options? {progress?: boolean|fun(system: venule.VesselsSystem)}
+---@return venule.VesselsSystem
+function VesselsSystem:run(options) end
 
 ---@class venule.Venation
 ---@field network venule.Network

@@ -1,0 +1,266 @@
+-- Blood vessels, the loop of Rauch & Harders 2021, section 3: oxygen drains appear, arteries grow toward them, drains that
+-- were reached become sources of carbon dioxide, veins grow toward these, and the tissue grows. Every primitive of it is
+-- public; copy the loop when an option is not enough.
+local venule = ...
+
+local options = require "venule.options"
+
+-- Lengths that are left out are those of the authors' own program, for a disk of diameter 1, by the longest side of the domain.
+local tree_rows = {
+  {"perception_distance", nil, type = "number", above = 0, unit = "length", share = 0.065, doc = "δ: drains farther than this draw no vessel"},
+  {"satisfaction", nil, type = "number", above = 0, unit = "length", share = 0.03, doc = "ε_k: a vessel this close satisfies a drain"},
+  {"segment_length", nil, type = "number", above = 0, unit = "length", share = 0.03, doc = "d: the length a vessel gains in a step"},
+  {"tip_radius", nil, type = "number", above = 0, unit = "length", share = 0.0005, doc = "r: radius of the last segments"},
+  {"perception_angle", 90, above = 0, max = 360, unit = "degrees", doc = "γ: a leaf perceives what lies within half of it on either side of its direction, an inter-node around the optimal branch"},
+  {"bias", 0.5, min = 0, max = 1, doc = "ω: how much of its own direction a vessel keeps, or of the optimal branch: 1 grows straight on"},
+  {"bias_mean", true, doc = "weigh ω against the mean of the directions to drains, as the authors' program does; false: against their sum, as printed"},
+  {"bifurcation_threshold", 15, min = 0, max = 180, unit = "degrees", doc = "φ: a leaf whose drains lie farther apart forks symmetrically"},
+  {"bifurcate", true, doc = "whether leaves fork at all"},
+  {"lateral", true, doc = "whether inter-nodes grow laterals"},
+  {"murray_exponent", 2.55, above = 2, max = 4, doc = "κ: r^κ adds up where vessels part, and branching angles follow from it"},
+}
+
+local drain_rows = {
+  {"darts", nil, type = "integer", min = 1, unit = "darts", doc = "thrown in each step; left out, with density: 1000"},
+  {"density", nil, type = "number", above = 0, unit = "darts/length²", doc = "ρ: or darts per area (volume) of the grown tissue and step"},
+  {"drain_spacing", nil, type = "number", above = 0, unit = "length", share = 0.03, doc = "ε_s: a new drain keeps this far from other drains"},
+  {"drain_clearance", nil, type = "number", above = 0, unit = "length", share = 0.04, doc = "ε_n: and this far from arteries"},
+}
+
+local kind_rows = {
+  {"roots", nil, type = "table", doc = "where trees begin: {{x, y}, …} or {{x, y, z}, …}, each with heading = {x, y} where its first segment has a direction"},
+  {"network", nil, type = "userdata", doc = "a network to go on from, besides roots"},
+}
+
+local own_rows = {
+  {"domain", nil, type = "userdata", required = true, doc = "the tissue: a domain, or a growth"},
+  {"rng", nil, type = "userdata", required = true, doc = "the random numbers: venule.rng(seed)"},
+  {"arteries", nil, type = "table", required = true, doc = "{roots = {…}}, or network =, with options that are to hold for arteries alone"},
+  {"veins", nil, type = "table", doc = "likewise; left out: none grow"},
+  {"steps", 100, min = 1, max = 1000000, doc = "how many; left out where there are stages or the domain grows by itself: theirs"},
+  {"growth", 0.02, min = 0, max = 1, doc = "Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays"},
+  {"stages", nil, type = "table", doc = "{{steps = 100, …}, …}: one after the other, each with options of its own"},
+  {"avoid", false, doc = "arteries and veins keep clear of one another, as tubes of their radii"},
+  {"unit", nil, type = "string", doc = "length unit that files carry"},
+}
+
+local function joined(...)
+  local all = {}
+  for _, rows in ipairs {...} do table.move(rows, 1, #rows, #all + 1, all) end
+  return all
+end
+
+-- The same rows with nothing filled in: what is given there overrides what was given farther out.
+local function bare(rows)
+  local copies = {}
+  for i, row in ipairs(rows) do
+    local copy = {}
+    for key, value in pairs(row) do copy[key] = value end
+    copy.type, copy[2] = row.type or type(row[2]), nil
+    copies[i] = copy
+  end
+  return copies
+end
+
+local vessels_rows = joined(own_rows, tree_rows, drain_rows)
+local branch_rows = joined(kind_rows, bare(tree_rows))
+local stage_rows = joined(
+  {
+    {"steps", nil, type = "integer", min = 1, max = 1000000, required = true, doc = "how many"},
+    {"arteries", nil, type = "table", doc = "options that are to hold for arteries alone"},
+    {"veins", nil, type = "table", doc = "options that are to hold for veins alone"},
+  }, bare(tree_rows), bare(drain_rows))
+
+local Vessels = {}
+Vessels.__index = Vessels
+
+local function size_of(domain)
+  local bounds, size = domain:bounds(), 0
+  for k = 1, #bounds.min do size = math.max(size, bounds.max[k] - bounds.min[k]) end
+  return size
+end
+
+-- The innermost of what was given, and else what the rows say.
+local function settle(rows, size, ...)
+  local read = {}
+  for _, row in ipairs(rows) do
+    local name, value = row[1], row[2]
+    if row.share then value = row.share * size end
+    for _, given in ipairs {...} do
+      if given[name] ~= nil then value = given[name] end
+    end
+    read[name] = value
+  end
+  return read
+end
+
+local function check_distances(kind, r, spacing, level)
+  if r.perception_distance <= r.satisfaction then
+    error(("vessels.perception_distance = %g must be above satisfaction = %g (%s): drains that near are satisfied already, and nothing would grow"):format(
+      r.perception_distance, r.satisfaction, kind), level)
+  end
+  if r.segment_length > 2 * r.satisfaction then
+    venule.note(("%s: segment_length = %g is more than twice satisfaction = %g: vessels overshoot their drains and run into others"):format(
+      kind, r.segment_length, r.satisfaction))
+  end
+  if r.perception_angle > 180 then
+    venule.note(("%s: perception_angle = %g is above 180: vessels turn back on themselves"):format(kind, r.perception_angle))
+  end
+  if r.bias > 0.9 then
+    venule.note(("%s: bias = %g is above 0.9: vessels run straight past their drains"):format(kind, r.bias))
+  end
+  if spacing and spacing > 1.5 * r.perception_distance then
+    venule.note(("drain_spacing = %g is more than perception_distance = %g reaches: vessels lose sight of the next drain"):format(
+      spacing, r.perception_distance))
+  end
+end
+
+-- What holds in each stage for each kind of tree.
+local function plan(o, given, size, level)
+  local stages = {}
+  for i, stage in ipairs(o.stages or {{steps = o.steps}}) do
+    local name = o.stages and ("vessels.stages[%d]"):format(i) or "vessels"
+    local own = o.stages and options.read(name, stage_rows, stage, level) or stage
+    local drains = settle(drain_rows, size, given, own)
+    if own.darts then drains.density = nil elseif own.density then drains.darts = nil end
+    local one = {steps = own.steps, drains = drains}
+    for _, kind in ipairs {"arteries", "veins"} do
+      local inner = own[kind] and options.read(name .. "." .. kind, bare(tree_rows), own[kind], level) or {}
+      one[kind] = settle(tree_rows, size, given, given[kind] or {}, own, inner)
+      if o[kind] then check_distances(kind, one[kind], kind == "arteries" and drains.drain_spacing, level + 1) end
+    end
+    if not drains.darts and not drains.density then drains.darts = 1000 end
+    if drains.darts and drains.density then error("vessels: give either `darts` or `density`", level) end
+    stages[i] = one
+  end
+  return stages
+end
+
+local function start_network(kind, o, first, dim, level)
+  local read = options.read("vessels." .. kind, branch_rows, o[kind], level)
+  local network = read.network or venule.network {dim = dim, unit = o.unit}
+  network:murray {exponent = first.murray_exponent, tip_radius = first.tip_radius}
+  for i, p in ipairs(read.roots or {}) do
+    if type(p) ~= "table" or #p ~= dim then
+      error(("vessels.%s.roots[%d]: {x, y%s} expected"):format(kind, i, dim == 3 and ", z" or ""), level)
+    end
+    local root = network:root(table.unpack(p, 1, dim))
+    if p.heading then network:heading(root, table.unpack(p.heading, 1, dim)) end
+  end
+  if #network == 0 then error(("vessels.%s: give roots = {{x, y}, …}, or a network to go on from"):format(kind), level) end
+  return network
+end
+
+-- Relative coordinates: the tissue keeps its place and its lengths shrink, λ_t = λ_0 σ_0 / σ_t.
+local function as_growth(o, steps)
+  local domain = o.domain
+  if getmetatable(domain).__name == "venule.growth" then return domain end
+  if o.growth == 0 then return venule.growth.none {domain = domain} end
+  local bounds = domain:bounds()
+  local length = bounds.max[2] - bounds.min[2]
+  return venule.growth.isogonic {domain = domain, from = length, to = length * (1 + steps * o.growth), step = length * o.growth}
+end
+
+local function total_steps(stages)
+  local steps = 0
+  for _, stage in ipairs(stages) do steps = steps + stage.steps end
+  return steps
+end
+
+--- Arteries and veins that grow together, ready to grow: s:step(), s:run{}, s.arteries, s.veins.
+local function vessels(given)
+  local o = options.read("vessels", vessels_rows, given, 2)
+  local grows_itself = getmetatable(o.domain).__name == "venule.growth"
+  if grows_itself and not given.steps and not o.stages then o.steps = math.max(1, o.domain.steps) end
+  local stages = plan(o, given, size_of(o.domain), 3)
+  local steps = total_steps(stages)
+  local tissue = as_growth(o, steps)
+  local dim = tissue.dim
+  local s = {
+    options = o, stages = stages, stage = 1, stage_step = 0, steps = steps, time = 0, tissue = tissue, networks = {},
+    drains = venule.attractors {dim = dim}, sources = venule.attractors {dim = dim},
+  }
+  for _, kind in ipairs {"arteries", "veins"} do
+    if o[kind] then
+      s[kind] = start_network(kind, o, stages[1][kind], dim, 3)
+      s.networks[kind] = s[kind]
+    end
+  end
+  return setmetatable(s, Vessels)
+end
+
+function Vessels:throw(r)
+  local unit, tissue = self.tissue.unit, self.tissue
+  return self.drains:throw {
+    domain = tissue, count = r.darts, density = r.density and r.density / unit ^ tissue.dim, spacing = r.drain_spacing * unit,
+    clearance = r.drain_clearance * unit, network = self.arteries, weight = self.options.weight, rng = self.options.rng,
+  }
+end
+
+--- Let one kind of tree grow by one step; how many nodes it gained.
+function Vessels:grow(kind, attractors, other, into)
+  local r, network, unit = self.stages[self.stage][kind], self[kind], self.tissue.unit
+  network:murray {exponent = r.murray_exponent, tip_radius = r.tip_radius * unit}
+  local influence = attractors:influence(network, {
+    within = r.perception_distance * unit, perception = {angle = r.perception_angle, lateral = r.lateral},
+  })
+  local added = network:extend(influence, {
+    length = r.segment_length * unit, domain = self.tissue, bias = r.bias, bias_mean = r.bias_mean,
+    bifurcate = r.bifurcate and r.bifurcation_threshold or nil, avoid = self.options.avoid and other or nil,
+  })
+  attractors:consume(network, {distance = r.satisfaction * unit, into = into})
+  return added
+end
+
+function Vessels:next_stage()
+  self.time, self.stage_step = self.time + 1, self.stage_step + 1
+  if self.stage_step >= self.stages[self.stage].steps and self.stage < #self.stages then
+    self.stage, self.stage_step = self.stage + 1, 0
+  end
+end
+
+--- Grow by one step: drains, arteries, veins, tissue (READINGS R20). False when done.
+function Vessels:step()
+  if self.time >= self.steps then return false end
+  self:throw(self.stages[self.stage].drains)
+  self:grow("arteries", self.drains, self.veins, self.veins and self.sources)
+  if self.veins then self:grow("veins", self.sources, self.arteries) end
+  self:next_stage()
+  if self.time >= self.steps then return false end
+  local tissue = self.tissue
+  local growing
+  if self.veins then
+    growing = tissue:advance(self.arteries, self.veins, self.drains, self.sources)
+  else
+    growing = tissue:advance(self.arteries, self.drains)
+  end
+  return growing or tissue.kind == "none"
+end
+
+--- Say what was given up, and what never began.
+function Vessels:report()
+  for _, kind in ipairs {"arteries", "veins"} do
+    local network, attractors = self[kind], kind == "arteries" and self.drains or self.sources
+    if network and network:measure().tips <= network:measure().roots and #network <= 2 then
+      venule.note(("%s never grew: no %s came within perception_distance = %g of a root; raise it, or place roots nearer"):format(kind,
+        kind == "arteries" and "drain" or "satisfied drain", self.stages[1][kind].perception_distance))
+    end
+    if network and attractors.retired.barred > 0 then
+      venule.note(("%s: %d drains given up, as their vessels would have met others"):format(kind, attractors.retired.barred))
+    end
+  end
+end
+
+--- Grow to the end. Progress shows on a terminal; a function given as `progress` is called after every step.
+function Vessels:run(given)
+  local o = options.read("run", {{"progress", nil, type = "any", doc = "true, or function(system) called after every step"}}, given or {}, 2)
+  repeat
+    local more = self:step()
+    if type(o.progress) == "function" then o.progress(self) end
+    venule.frame(self.time / self.steps)
+  until not more
+  self:report()
+  return self
+end
+
+return {vessels = vessels, vessels_rows = vessels_rows, vessels_branch_rows = branch_rows, vessels_stage_rows = stage_rows}
