@@ -241,7 +241,7 @@ end
 function Vessels:report()
   for _, kind in ipairs {"arteries", "veins"} do
     local network, attractors = self[kind], kind == "arteries" and self.drains or self.sources
-    if network and network:measure().tips <= network:measure().roots and #network <= 2 then
+    if network and #network == network:measure().roots then
       venule.note(("%s never grew: no %s came within perception_distance = %g of a root; raise it, or place roots nearer"):format(kind,
         kind == "arteries" and "drain" or "satisfied drain", self.stages[1][kind].perception_distance))
     end

@@ -266,8 +266,379 @@ static void test_influence_on_a_lattice(void **state) {
     }
 }
 
+// ---- Golden values (READINGS) ----
+
+static vn_network *vessel_of(int dim, double kappa) {
+    vn_network *net = network_of(dim);
+    vn_murray_def law = {.exponent = kappa, .tip_radius = 1};
+    assert_ok(vn_network_murray(net, &law));
+    return net;
+}
+
+static void grow_once(vn_network *net, vn_attractors *a, double gamma, const vn_extend_def *grow) {
+    vn_influence *f = NULL;
+    vn_influence_def def = vn_influence_def_default();
+    int32_t added, first;
+    def.within = 10;
+    def.perception = (vn_perception){gamma, true};
+    assert_ok(vn_influence_find(&f, a, net, &def));
+    assert_ok(vn_extend(net, f, grow, &added, &first));
+    vn_influence_destroy(f);
+}
+
+// An inter-node whose child carries so many tips.
+static double lateral_angle(double kappa, int tips) {
+    vn_network *net = vessel_of(2, kappa);
+    vn_zone_shape zone;
+    vn_perception perception = {90, true};
+    int32_t node = put_child(net, put_root(net, 0, 0, 0), 1, 0, 0);
+    int32_t child = put_child(net, node, 2, 0, 0);
+    for (int i = 0; i < tips; i++) {
+        put_child(net, child, 3, i, 0);
+    }
+    assert_ok(vn_network_zone(net, node, &perception, &zone));
+    assert_int_equal(zone.kind, VN_ZONE_BELT);
+    assert_near(zone.angle, branch_angle(pow(tips, 1 / kappa), 1, kappa), 1e-9);
+    vn_network_destroy(net);
+    return zone.angle;
+}
+
+static void test_angles_of_laterals(void **state) {
+    (void)state;
+    assert_near(lateral_angle(2.55, 1), 30.5556, 5e-5);
+    assert_near(lateral_angle(2.55, 10), 57.8868, 5e-5);
+    assert_near(lateral_angle(2.55, 100), 72.4, 0.05);
+    assert_near(lateral_angle(2.1, 1), 14.6403, 5e-5);
+    assert_near(lateral_angle(2.9, 1), 36.2496, 5e-5);
+    assert_near(lateral_angle(3, 1), 37.4673, 5e-5);
+    assert_near(lateral_angle(4, 1), 45, 1e-9);
+    for (int tips = 1; tips < 600; tips += 37) { // past the table, and turning outwards all along
+        assert_true(lateral_angle(2.55, tips + 1) > lateral_angle(2.55, tips));
+        assert_true(lateral_angle(2.55, tips) < 90);
+    }
+}
+
+static double bent_by(double bias, bool mean) {
+    vn_network *net = vessel_of(2, 2.55);
+    vn_attractors *a = attractors_of(2, 1);
+    vn_extend_def grow = vn_extend_def_default();
+    put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
+    put_attractor(a, 3 * cos(10 / DEGREES), 3 * sin(10 / DEGREES), 0);
+    put_attractor(a, 4 * cos(50 / DEGREES), 4 * sin(50 / DEGREES), 0);
+    grow.bias = bias;
+    grow.bias_mean = mean;
+    grow_once(net, a, 120, &grow);
+    assert_int_equal(vn_network_count(net), 3);
+    double angle = atan2(vn_network_y(net)[2], vn_network_x(net)[2]) * DEGREES;
+    vn_attractors_destroy(a);
+    vn_network_destroy(net);
+    return angle;
+}
+
+static void test_bias(void **state) {
+    (void)state;
+    assert_near(bent_by(0.5, false), 19.68, 0.005);
+    assert_near(bent_by(0.5, true), 15, 1e-9);
+    assert_near(bent_by(0, false), 30, 1e-9);
+    assert_near(bent_by(1, false), 0, 1e-9);
+}
+
+static void test_forks_in_the_plane(void **state) {
+    (void)state;
+    static const double golden[][2] = {
+        {2.1, 14.6403}, {2.55, 30.5556}, {2.9, 36.2496}, {3, 37.4673}, {4, 45}};
+    for (int i = 0; i < 5; i++) {
+        vn_network *net = vessel_of(2, golden[i][0]);
+        vn_attractors *a = attractors_of(2, 1);
+        vn_extend_def grow = vn_extend_def_default();
+        put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
+        put_attractor(a, 3, 2, 0);
+        put_attractor(a, 3, -2, 0);
+        grow.bifurcate = 33; // they deviate by 33.69°
+        grow_once(net, a, 90, &grow);
+        assert_int_equal(vn_network_count(net), 4);
+        for (int node = 2; node < 4; node++) {
+            assert_int_equal(vn_network_parent(net)[node], 1);
+            assert_near(fabs(atan2(vn_network_y(net)[node], vn_network_x(net)[node])) * DEGREES, golden[i][1],
+                        5e-5);
+        }
+        assert_true(vn_network_y(net)[2] * vn_network_y(net)[3] < 0);
+        vn_attractors_destroy(a);
+        vn_network_destroy(net);
+    }
+}
+
+// One degree less spread than φ: the vessel goes on as one.
+static void test_below_the_threshold(void **state) {
+    (void)state;
+    vn_network *net = vessel_of(2, 2.55);
+    vn_attractors *a = attractors_of(2, 1);
+    vn_extend_def grow = vn_extend_def_default();
+    put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
+    put_attractor(a, 3, 2, 0);
+    put_attractor(a, 3, -2, 0);
+    grow.bifurcate = 34;
+    grow_once(net, a, 90, &grow);
+    assert_int_equal(vn_network_count(net), 3);
+    vn_attractors_destroy(a);
+    vn_network_destroy(net);
+}
+
+static void test_fork_in_space(void **state) {
+    (void)state;
+    static const double drains[4][3] = {
+        {.03, .01, .05}, {-.025, -.005, .045}, {.02, .012, .04}, {-.03, -.014, .05}};
+    static const double golden[2][3] = {{-.481012, -.165932, .860868}, {.465283, .205958, .860868}};
+    vn_network *net = vessel_of(3, 2.55);
+    vn_attractors *a = attractors_of(3, 1);
+    vn_extend_def grow = vn_extend_def_default();
+    put_child(net, put_root(net, 0, 0, -1), 0, 0, 0);
+    for (int i = 0; i < 4; i++) {
+        put_attractor(a, drains[i][0], drains[i][1], drains[i][2]);
+    }
+    grow.bifurcate = 15;
+    grow_once(net, a, 180, &grow);
+    assert_int_equal(vn_network_count(net), 4);
+    double p[2][3];
+    place(net, 2, p[0]);
+    place(net, 3, p[1]);
+    int first = p[0][0] < 0 ? 0 : 1;
+    for (int k = 0; k < 3; k++) {
+        assert_near(p[first][k], golden[0][k], 1e-6);
+        assert_near(p[1 - first][k], golden[1][k], 1e-6);
+    }
+    assert_near(angle_between(p[0], p[1]), 61.111157, 1e-6);
+    vn_attractors_destroy(a);
+    vn_network_destroy(net);
+}
+
+// A root looks all around, and has one child; with a heading it has a cone.
+static void test_roots(void **state) {
+    (void)state;
+    vn_network *net = vessel_of(2, 2.55);
+    vn_zone_shape zone;
+    vn_perception perception = {90, true};
+    double up[3] = {0, 2, 0}, nowhere[3] = {0, 0, 0};
+    int32_t root = put_root(net, 0, 0, 0);
+    assert_ok(vn_network_zone(net, root, &perception, &zone));
+    assert_int_equal(zone.kind, VN_ZONE_BALL);
+    assert_ok(vn_network_set_heading(net, root, up));
+    assert_ok(vn_network_zone(net, root, &perception, &zone));
+    assert_int_equal(zone.kind, VN_ZONE_CONE);
+    assert_near(zone.direction[1], 1, 1e-15);
+    assert_int_equal(vn_network_set_heading(net, root, nowhere), VN_INVALID);
+    int32_t child = put_child(net, root, 0, 1, 0);
+    assert_ok(vn_network_zone(net, root, &perception, &zone));
+    assert_int_equal(zone.kind, VN_ZONE_NONE);
+    assert_int_equal(vn_network_set_heading(net, child, up), VN_INVALID);
+    vn_network_destroy(net);
+}
+
+// ---- Laws ----
+
+static bool is_fork(const vn_network *net, int32_t node, int32_t first) {
+    int count = 0;
+    for (int32_t c = vn_network_first_child(net, node); c >= 0; c = vn_network_next_child(net, c)) {
+        count += c >= first;
+    }
+    return count == 2;
+}
+
+static void check_direction(const vn_network *net, int32_t node, int32_t first, double kappa,
+                            const vn_zone_shape *zone, double gamma) {
+    int32_t parent = vn_network_parent(net)[node];
+    double p[3], q[3], d[3];
+    place(net, parent, p);
+    place(net, node, q);
+    for (int k = 0; k < 3; k++) {
+        d[k] = q[k] - p[k];
+    }
+    double theta = zone->kind == VN_ZONE_BALL ? 0 : angle_between(zone->direction, d);
+    if (is_fork(net, parent, first)) {
+        double pair[2][3];
+        int32_t sister = vn_network_next_child(net, vn_network_first_child(net, parent));
+        place(net, vn_network_first_child(net, parent), pair[0]);
+        place(net, sister, pair[1]);
+        for (int k = 0; k < 3; k++) {
+            pair[0][k] -= p[k];
+            pair[1][k] -= p[k];
+        }
+        assert_near(angle_between(pair[0], pair[1]), 2 * acos(pow(2, 2 / kappa - 1)) * DEGREES, 1e-5);
+    } else if (zone->kind != VN_ZONE_BALL) {
+        assert_true(theta >= zone->angle - gamma / 2 - 1e-4 && theta <= zone->angle + gamma / 2 + 1e-4);
+    }
+}
+
+static void test_directions_are_allowed(void **state) {
+    (void)state;
+    int32_t forks = 0, laterals = 0;
+    for (uint64_t seed = 31; seed < 43; seed++) {
+        garden g = garden_of(seed % 2 == 0 ? 3 : 2, seed);
+        for (int step = 0; step < 20; step++) {
+            static vn_zone_shape zones[20000];
+            vn_perception perception = {g.r.gamma, g.r.lateral};
+            int32_t added, first;
+            throw_some(&g, 1);
+            influence(&g);
+            for (int32_t node = 0; node < vn_network_count(g.net); node++) {
+                assert_ok(vn_network_zone(g.net, node, &perception, &zones[node]));
+            }
+            assert_ok(vn_extend(g.net, g.f, &g.grow, &added, &first));
+            for (int32_t node = first; node < first + added; node++) {
+                int32_t parent = vn_network_parent(g.net)[node];
+                check_direction(g.net, node, first, g.r.kappa, &zones[parent], g.r.gamma);
+                forks += is_fork(g.net, parent, first);
+                laterals += zones[parent].kind == VN_ZONE_BELT;
+            }
+            consume(&g);
+        }
+        end_garden(&g);
+    }
+    assert_true(forks > 50 && laterals > 50);
+}
+
+static void test_radii_stay_murrays(void **state) {
+    (void)state;
+    for (uint64_t seed = 51; seed < 57; seed++) {
+        garden g = garden_of(2 + (int)(seed % 2), seed);
+        for (int step = 0; step < 30; step++) {
+            step_garden(&g, step);
+            vn_network_radius(g.net, 0); // counts are carried up in some steps, and pile up in others
+            for (int32_t node = 0; step % 3 == 0 && node < vn_network_count(g.net); node++) {
+                double sum = 0, r = vn_network_radius(g.net, node);
+                for (int32_t c = vn_network_first_child(g.net, node); c >= 0;
+                     c = vn_network_next_child(g.net, c)) {
+                    sum += pow(vn_network_radius(g.net, c), g.r.kappa);
+                }
+                if (sum > 0 && vn_network_parent(g.net)[node] >= 0) {
+                    assert_near(pow(r, g.r.kappa) / sum, 1, 1e-9);
+                    assert_near(r, 0.01 * pow(tips_of(g.net, node), 1 / g.r.kappa), 1e-12);
+                }
+            }
+        }
+        end_garden(&g);
+    }
+}
+
+// ---- Growth of the tissue ----
+
+// What the step makes of everything scaled by @p sigma, with lengths that stay.
+static vn_network *step_scaled(const garden *g, double sigma, const vn_influence_def *see,
+                               const vn_extend_def *grow) {
+    vn_network *net = vessel_of(2, g->r.kappa);
+    vn_attractors *a = attractors_of(2, (int64_t)g->r.seed);
+    vn_influence *f = NULL;
+    int32_t added, first;
+    for (int32_t i = 0; i < vn_network_count(g->net); i++) {
+        double p[3];
+        place(g->net, i, p);
+        int32_t parent = vn_network_parent(g->net)[i];
+        if (parent < 0) {
+            put_root(net, sigma * p[0], sigma * p[1], 0);
+        } else {
+            put_child(net, parent, sigma * p[0], sigma * p[1], 0);
+        }
+    }
+    for (int32_t i = 0; i < vn_attractors_count(g->a); i++) {
+        double p[3];
+        assert_ok(vn_attractors_position(g->a, i, p));
+        put_attractor(a, sigma * p[0], sigma * p[1], 0);
+    }
+    assert_ok(vn_influence_find(&f, a, net, see));
+    assert_ok(vn_extend(net, f, grow, &added, &first));
+    vn_influence_destroy(f);
+    vn_attractors_destroy(a);
+    return net;
+}
+
+// λ_t = λ_0 σ_0 / σ_t: lengths that shrink in a tissue that stays do what lengths do that stay in one that
+// grows.
+static void test_relative_growth_is_growth(void **state) {
+    (void)state;
+    for (uint64_t seed = 61; seed < 67; seed++) {
+        garden g = garden_of(2, seed);
+        g.grow.domain = NULL;
+        double within = g.r.within, length = g.grow.length, reach = g.r.consume;
+        for (int step = 0; step < 18; step++) {
+            double sigma = 1 + 0.1 * step;
+            vn_influence_def see = vn_influence_def_default();
+            vn_extend_def grow = g.grow;
+            int32_t added, first;
+            g.r.within = within / sigma;
+            g.grow.length = length / sigma;
+            g.r.consume = reach / sigma;
+            see.within = within;
+            see.perception = (vn_perception){g.r.gamma, g.r.lateral};
+            grow.length = length;
+            throw_some(&g, 1 / sigma);
+            vn_network *scaled = step_scaled(&g, sigma, &see, &grow);
+            influence(&g);
+            assert_ok(vn_extend(g.net, g.f, &g.grow, &added, &first));
+            assert_int_equal(vn_network_count(scaled), vn_network_count(g.net));
+            for (int32_t i = first; i < first + added; i++) {
+                assert_int_equal(vn_network_parent(scaled)[i], vn_network_parent(g.net)[i]);
+                assert_near(vn_network_x(scaled)[i], sigma * vn_network_x(g.net)[i], 1e-9);
+                assert_near(vn_network_y(scaled)[i], sigma * vn_network_y(g.net)[i], 1e-9);
+            }
+            vn_network_destroy(scaled);
+            consume(&g);
+        }
+        end_garden(&g);
+    }
+}
+
+// ---- Bad input ----
+
+static void test_bad_input(void **state) {
+    (void)state;
+    vn_network *net = network_of(2);
+    vn_attractors *a = attractors_of(2, 1);
+    vn_influence *f = NULL;
+    vn_influence_def def = vn_influence_def_default();
+    vn_extend_def grow = vn_extend_def_default();
+    vn_murray_def law = {.exponent = 5, .tip_radius = 1};
+    int32_t added, first;
+    put_root(net, 0, 0, 0);
+    put_attractor(a, 0.5, 0, 0);
+    def.perception.angle = 90;
+    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
+    assert_message("Murray's law");
+    assert_ok(vn_network_murray(net, &law));
+    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
+    assert_message("murray.exponent = 5 must be above 2 and at most 4");
+    law.exponent = 2;
+    assert_ok(vn_network_murray(net, &law));
+    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
+    law.exponent = 3;
+    assert_ok(vn_network_murray(net, &law));
+    def.mode = VN_RELATIVE;
+    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
+    assert_message("nearest");
+    def.mode = VN_NEAREST;
+    def.perception.angle = 400;
+    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
+    def.perception.angle = 0;
+    assert_ok(vn_influence_find(&f, a, net, &def));
+    grow.bias = 0.5;
+    assert_int_equal(vn_extend(net, f, &grow, &added, &first), VN_INVALID);
+    assert_message("perception");
+    vn_influence_destroy(f);
+    vn_attractors_destroy(a);
+    vn_network_destroy(net);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        counted_test(test_angles_of_laterals),
+        counted_test(test_bias),
+        counted_test(test_forks_in_the_plane),
+        counted_test(test_below_the_threshold),
+        counted_test(test_fork_in_space),
+        counted_test(test_roots),
+        counted_test(test_directions_are_allowed),
+        counted_test(test_radii_stay_murrays),
+        counted_test(test_relative_growth_is_growth),
+        counted_test(test_bad_input),
         counted_test(test_influence_of_random_vessels),
         counted_test(test_influence_on_a_lattice),
     };
