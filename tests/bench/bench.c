@@ -2,16 +2,15 @@
 // nothing fails here for being slow.
 
 #include "bench_cco.h"
+#include "bench_vessels.h"
 #include "report.h"
+#include "stopwatch.h"
 #include "yardstick.h"
-
-#include "venule/venule.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /// Space colonisation of a square with one root in the middle, all attractors thrown at once.
 typedef struct colony {
@@ -29,24 +28,11 @@ typedef struct outcome {
     double peak_bytes_a_node; ///< of everything at its peak: attractors, trees, working memory
 } outcome;
 
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void must(vn_status status) {
-    if (status != VN_OK) {
-        fprintf(stderr, "bench: %s\n", vn_message());
-        exit(vn_exit_status(status));
-    }
-}
-
 static vn_domain *square(double side) {
     vn_box_def def = vn_box_def_default();
     vn_domain *domain;
     def.max[0] = def.max[1] = side;
-    must(vn_domain_box(&domain, &def));
+    bench_must(vn_domain_box(&domain, &def));
     return domain;
 }
 
@@ -56,8 +42,8 @@ static vn_attractors *thrown(const colony *c, vn_domain *domain) {
     vn_rng rng = vn_rng_make(2005);
     vn_throw_def def = {.domain = domain, .count = c->attractors, .spacing = c->spacing, .rng = &rng};
     int32_t accepted;
-    must(vn_attractors_create(&attractors, &set));
-    must(vn_throw(attractors, &def, &accepted));
+    bench_must(vn_attractors_create(&attractors, &set));
+    bench_must(vn_throw(attractors, &def, &accepted));
     return attractors;
 }
 
@@ -65,8 +51,8 @@ static vn_network *rooted(double side) {
     vn_network_def def = vn_network_def_default();
     vn_network *network;
     double middle[3] = {side / 2, side / 2, 0};
-    must(vn_network_create(&network, &def));
-    must(vn_network_root(network, middle, NULL));
+    bench_must(vn_network_create(&network, &def));
+    bench_must(vn_network_root(network, middle, NULL));
     return network;
 }
 
@@ -78,9 +64,9 @@ static void grow(const colony *c, vn_network *network, vn_attractors *attractors
     vn_consume_def consume = {.distance = c->kill, .mode = closed ? VN_CONSUME_TAGGED : VN_CONSUME_ANY};
     int32_t added, first, consumed;
     do {
-        must(vn_influence_find(&influence, attractors, network, &find));
-        must(vn_extend(network, influence, &extend, &added, &first));
-        must(vn_consume(attractors, network, &consume, &consumed));
+        bench_must(vn_influence_find(&influence, attractors, network, &find));
+        bench_must(vn_extend(network, influence, &extend, &added, &first));
+        bench_must(vn_consume(attractors, network, &consume, &consumed));
     } while (added > 0);
     vn_influence_destroy(influence);
 }
@@ -90,12 +76,12 @@ static outcome run_once(const colony *c) {
     size_t base = vn_byte_count();
     vn_byte_peak_reset();
     vn_domain *domain = square(c->side);
-    double begin = now();
+    double begin = bench_now();
     vn_attractors *attractors = thrown(c, domain);
-    begin = c->spacing > 0 ? now() : begin; // there the sources are given
+    begin = c->spacing > 0 ? bench_now() : begin; // there the sources are given
     vn_network *network = rooted(c->side);
     grow(c, network, attractors);
-    result.seconds = now() - begin;
+    result.seconds = bench_now() - begin;
     result.nodes = vn_network_count(network);
     result.left = vn_attractors_count(attractors);
     result.peak_bytes_a_node = (double)(vn_byte_peak() - base) / result.nodes;
@@ -220,7 +206,7 @@ static vn_domain *poplar_blade(void) {
     vn_domain *blade;
     def.half_width = half_width;
     def.samples = SAMPLES;
-    must(vn_domain_profile(&blade, &def));
+    bench_must(vn_domain_profile(&blade, &def));
     return blade;
 }
 
@@ -240,16 +226,16 @@ static int32_t poplar_vein_step(poplar *p) {
     vn_extend_def extend = {.length = unit, .domain = vn_growth_domain(p->growth), .meet = VN_MEET_JOIN};
     vn_consume_def consume = {.distance = unit, .mode = VN_CONSUME_TAGGED};
     int32_t added, first, consumed;
-    must(vn_influence_find(&p->influence, p->auxin, p->network, &find));
-    must(vn_extend(p->network, p->influence, &extend, &added, &first));
-    must(vn_consume(p->auxin, p->network, &consume, &consumed));
+    bench_must(vn_influence_find(&p->influence, p->auxin, p->network, &find));
+    bench_must(vn_extend(p->network, p->influence, &extend, &added, &first));
+    bench_must(vn_consume(p->auxin, p->network, &consume, &consumed));
     return added;
 }
 
 static bool poplar_step(poplar *p) {
     bool growing;
     int32_t added = 0, accepted;
-    must(vn_growth_advance(p->growth, &growing));
+    bench_must(vn_growth_advance(p->growth, &growing));
     if (growing) {
         double unit = vn_growth_unit(p->growth);
         vn_throw_def throw = {.domain = vn_growth_domain(p->growth),
@@ -258,7 +244,7 @@ static bool poplar_step(poplar *p) {
                               .clearance = 2 * unit,
                               .network = p->network,
                               .rng = &p->rng};
-        must(vn_throw(p->auxin, &throw, &accepted));
+        bench_must(vn_throw(p->auxin, &throw, &accepted));
     }
     for (int i = 0; i < 3; i++) {
         added += poplar_vein_step(p);
@@ -279,14 +265,14 @@ static outcome grow_poplar(int mode) {
     def.from = 115;
     def.to = 3500;
     def.step = 9;
-    must(vn_growth_isogonic(&p.growth, &def));
-    must(vn_network_create(&p.network, &net));
-    must(vn_network_root(p.network, petiole, NULL));
-    must(vn_attractors_create(&p.auxin, &set));
-    double begin = now();
+    bench_must(vn_growth_isogonic(&p.growth, &def));
+    bench_must(vn_network_create(&p.network, &net));
+    bench_must(vn_network_root(p.network, petiole, NULL));
+    bench_must(vn_attractors_create(&p.auxin, &set));
+    double begin = bench_now();
     while (poplar_step(&p)) {
     }
-    result.seconds = now() - begin;
+    result.seconds = bench_now() - begin;
     result.nodes = vn_network_count(p.network);
     result.left = vn_attractors_count(p.auxin);
     result.peak_bytes_a_node = (double)(vn_byte_peak() - base) / result.nodes;
@@ -318,11 +304,8 @@ static void bench_poplar(report *r, double yard, bool quick) {
 static const struct {
     const char *name;
     void (*run)(report *r, double yard, bool quick);
-} benches[] = {{"open", bench_open},
-               {"webb", bench_webb},
-               {"closed", bench_closed},
-               {"poplar", bench_poplar},
-               {"cco", bench_cco}};
+} benches[] = {{"open", bench_open},     {"webb", bench_webb}, {"closed", bench_closed},
+               {"poplar", bench_poplar}, {"cco", bench_cco},   {"vessels", bench_vessels}};
 
 enum { BENCHES = sizeof benches / sizeof *benches };
 
@@ -356,7 +339,8 @@ static bool read_options(bench_options *o, int argc, char **argv) {
             o->names[o->count++] = argv[i];
         } else {
             fprintf(stderr,
-                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [poplar] [cco] [--quick] "
+                    "bench: unknown word %s (venule-bench [open] [webb] [closed] [poplar] [cco] [vessels] "
+                    "[--quick] "
                     "[--json "
                     "FILE] "
                     "[--csv FILE] "

@@ -1,35 +1,21 @@
 // Speed and memory of arterial trees by constrained constructive optimisation.
 #include "bench_cco.h"
 
-#include "venule/venule.h"
+#include "stopwatch.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 static const double PI = 3.14159265358979323846;
-
-static void must(vn_status status) {
-    if (status != VN_OK) {
-        fprintf(stderr, "bench: %s\n", vn_message());
-        exit(vn_exit_status(status));
-    }
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 // The default domain: 20,000 mm² or mm³ about the origin.
 static vn_domain *organ(int dim) {
     vn_disk_def def = vn_disk_def_default();
     vn_domain *domain;
     def.radius = dim == 2 ? sqrt(20000 / PI) : cbrt(3 * 20000 / (4 * PI));
-    must(dim == 2 ? vn_domain_disk(&domain, &def) : vn_domain_sphere(&domain, &def));
+    bench_must(dim == 2 ? vn_domain_disk(&domain, &def) : vn_domain_sphere(&domain, &def));
     return domain;
 }
 
@@ -49,12 +35,12 @@ static outcome grow(int dim, int32_t terminals) {
     def.terminals = terminals;
     tree.root[1] = vn_domain_bounds(def.domain).max[1];
     vn_byte_peak_reset();
-    double start = now();
-    must(vn_cco_create(&cco, &def));
-    must(vn_cco_add(cco, &tree, &number));
-    must(vn_cco_grow(cco, terminals, &added));
-    must(vn_cco_network(cco, 0, &network));
-    result.seconds = now() - start;
+    double start = bench_now();
+    bench_must(vn_cco_create(&cco, &def));
+    bench_must(vn_cco_add(cco, &tree, &number));
+    bench_must(vn_cco_grow(cco, terminals, &added));
+    bench_must(vn_cco_network(cco, 0, &network));
+    result.seconds = bench_now() - start;
     result.volume = vn_cco_report_of(cco, 0).volume;
     result.bytes = (double)(vn_byte_peak() - base) / terminals;
     if (added != terminals || vn_network_count(network) != 2 * terminals) {
