@@ -10,7 +10,7 @@ local p = venule.param {
   {"darts", 1000, min = 1, max = 10000000, help = "thrown in each step"},
   {"murray_exponent", 2.55, min = 2.01, max = 4, help = "κ: large ones widen the angles"},
   {"bias", 0.5, min = 0, max = 1, help = "ω: how straight vessels grow"},
-  {"bifurcation_threshold", 15.0, min = 0, max = 180, unit = "degrees", help = "φ: above it a tip forks"},
+  {"bifurcation_threshold", 15.0, min = 0.001, max = 180, unit = "degrees", help = "φ: above it a tip forks"},
   {"perception_angle", 90.0, min = 1, max = 360, unit = "degrees", help = "γ"},
   {"perception_distance", 0.065, min = 1e-4, max = 1, unit = "diameters", help = "δ of arteries"},
   {"drain_spacing", 0.03, min = 1e-4, max = 1, unit = "diameters", help = "ε_s, of drains from one another"},

@@ -12,21 +12,31 @@ static inline uint64_t vn_mix(uint64_t z) {
     return z ^ (z >> 31);
 }
 
+/// What vn_hash() makes of its first two numbers.
+static inline uint64_t vn_hash_begin(uint64_t seed, uint64_t a) {
+    uint64_t h = vn_mix(seed + 0x9E3779B97F4A7C15u);
+    return vn_mix(h ^ (a + 0x9E3779B97F4A7C15u));
+}
+
+/// And then of the others.
+static inline uint64_t vn_hash_end(uint64_t begun, uint64_t b, uint64_t c) {
+    uint64_t h = vn_mix(begun ^ (b + 0xC2B2AE3D27D4EB4Fu));
+    return vn_mix(h ^ (c + 0x165667B19E3779F9u));
+}
+
 /// vn_hash().
 static inline uint64_t vn_hash_here(uint64_t seed, uint64_t a, uint64_t b, uint64_t c) {
-    uint64_t h = vn_mix(seed + 0x9E3779B97F4A7C15u);
-    h = vn_mix(h ^ (a + 0x9E3779B97F4A7C15u));
-    h = vn_mix(h ^ (b + 0xC2B2AE3D27D4EB4Fu));
-    return vn_mix(h ^ (c + 0x165667B19E3779F9u));
+    return vn_hash_end(vn_hash_begin(seed, a), b, c);
 }
 
 static inline double vn_unit_interval(uint64_t bits) {
     return (double)(bits >> 11) * 0x1p-53;
 }
 
-/// The next of vn_rng_uniform()'s numbers in [low, high].
-static inline double vn_uniform_here(vn_rng *rng, double low, double high) {
-    double t = vn_unit_interval(vn_hash_here(rng->seed, rng->stream, rng->counter++, 0));
+/// The next of vn_rng_uniform()'s numbers in [low, high], where many come from one stream: @p begun is
+/// vn_hash_begin(rng->seed, rng->stream).
+static inline double vn_uniform_here(vn_rng *rng, uint64_t begun, double low, double high) {
+    double t = vn_unit_interval(vn_hash_end(begun, rng->counter++, 0));
     return low + t * (high - low);
 }
 

@@ -19,7 +19,7 @@ static uint64_t next_bits(vn_rng *rng) {
 }
 
 double vn_rng_uniform(vn_rng *rng, double low, double high) {
-    return vn_uniform_here(rng, low, high);
+    return vn_uniform_here(rng, vn_hash_begin(rng->seed, rng->stream), low, high);
 }
 
 double vn_rng_normal(vn_rng *rng, double mean, double deviation) {

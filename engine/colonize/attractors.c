@@ -64,6 +64,7 @@ void vn_attractors_destroy(vn_attractors *a) {
     vn_array_free(&a->candidates);
     vn_array_free(&a->near_nodes);
     vn_array_free(&a->refusers);
+    vn_cover_free(&a->cover);
     vn_array_free(&a->sleep);
     vn_point_grid_free(&a->grid);
     vn_domain_release(a->last.domain);

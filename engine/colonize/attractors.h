@@ -5,6 +5,7 @@
 #include "base/schema.h"
 #include "colonize/perception.h"
 #include "network/network.h"
+#include "space/cover.h"
 #include "space/reach_tree.h"
 #include "venule/attractors.h"
 
@@ -136,14 +137,18 @@ struct vn_attractors {
     VN_ARRAY(int32_t) present; ///< the public numbering
     uint64_t present_version;
 
-    VN_ARRAY(int32_t) refusers; ///< of darts, by where these fell (throw.c)
-    double carry;               ///< the fraction of a dart that is still to be thrown
-    vn_domain *sight;           ///< what hides nodes from attractors
-    VN_ARRAY(int32_t) waiting;  ///< those that no node sees yet
-    int32_t next_look;          ///< the network's step at which they look again
-    uint64_t roots_serial;      ///< the network whose roots were found inside the domain,
-    int32_t roots_inside;       ///< and how many those were
-    vn_domain *margin;          ///< what the dormant ones wait for
+    VN_ARRAY(int32_t) refusers;          ///< of darts, by where these fell (throw.c)
+    vn_cover cover;                      ///< of what is too near to nodes, so long as
+    uint64_t cover_network, cover_moved; ///< these are those it was made of:
+    int32_t cover_nodes;                 ///< so many
+    int64_t cover_darts;                 ///< thrown since it was made
+    double carry;                        ///< the fraction of a dart that is still to be thrown
+    vn_domain *sight;                    ///< what hides nodes from attractors
+    VN_ARRAY(int32_t) waiting;           ///< those that no node sees yet
+    int32_t next_look;                   ///< the network's step at which they look again
+    uint64_t roots_serial;               ///< the network whose roots were found inside the domain,
+    int32_t roots_inside;                ///< and how many those were
+    vn_domain *margin;                   ///< what the dormant ones wait for
     double margin_clearance;
     VN_ARRAY(vn_dormant) dormant; ///< by falling arrival: the next to wake is the last
 };

@@ -4,7 +4,7 @@
 #include "colonize/extend.h"
 #include "domain/domain.h"
 
-static const vn_extend_def extend_default = {.length = 1, .bifurcate = -1};
+static const vn_extend_def extend_default = {.length = 1};
 
 static const vn_field extend_fields[] = {
     {"length", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_extend_def, length), 0, 1e150, "length", NULL,
@@ -18,7 +18,8 @@ static const vn_field extend_fields[] = {
      "ω, with perception: how much of a vessel's own direction is in that of its next segment"},
     {"bias_mean", VN_BOOL, 0, offsetof(vn_extend_def, bias_mean), 0, 0, "", NULL,
      "weigh the mean of the directions to attractors against that, rather than their sum"},
-    {"bifurcate", VN_F64, VN_OPTIONAL, offsetof(vn_extend_def, bifurcate), 0, 180, "degrees", NULL,
+    {"bifurcate", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_extend_def, bifurcate), 0, 180, "degrees",
+     NULL,
      "φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none "
      "does"},
 };
@@ -503,10 +504,10 @@ static vn_status check_extend(const vn_network *network, const vn_influence *inf
                        "extend: the influence is out of date, or of another network: call influence() "
                        "again after anything has changed");
     }
-    bool vessel = def->bias > 0 || def->bias_mean || def->bifurcate >= 0;
+    bool vessel = def->bias > 0 || def->bias_mean || def->bifurcate > 0;
     if (vessel && !vn_gaze_is_open(&influence->attractors->gaze)) {
         return vn_fail(VN_INVALID, "extend.%s is for vessels: give the influence perception = {angle=}",
-                       def->bifurcate >= 0 ? "bifurcate" : "bias");
+                       def->bifurcate > 0 ? "bifurcate" : "bias");
     }
     if (def->domain != NULL && vn_domain_dim(def->domain) != network->dim) {
         return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d",

@@ -201,7 +201,7 @@ static bool fork(const sprout *s, double p[2][3]) {
 
 static bool may_fork(const sprout *s) {
     const vn_extend_def *def = s->e->def;
-    return def->bifurcate >= 0 && s->zone.kind == VN_ZONE_CONE && s->e->end - s->e->begin > 1 &&
+    return def->bifurcate > 0 && s->zone.kind == VN_ZONE_CONE && s->e->end - s->e->begin > 1 &&
            s->e->network->parent.data[s->e->node] >= 0 && deviation(s) > def->bifurcate;
 }
 

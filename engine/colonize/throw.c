@@ -189,14 +189,60 @@ static vn_status land_one(const refusals *r, double spacing, const double p[3], 
     return VN_OK;
 }
 
+static bool covers(const vn_attractors *a, const vn_throw_def *def) {
+    const vn_cover *cover = &a->cover;
+    return a->cover_network == def->network->serial && a->cover_moved == def->network->moved &&
+           cover->radius < def->clearance && cover->radius >= 0.7 * def->clearance;
+}
+
+// Made anew for every dart or so of an eighth of the nodes: where few darts fall it would not pay. Where the
+// clearance shrinks the cover is made for what it will shrink to.
+static vn_status make_cover(vn_attractors *a, const vn_throw_def *def) {
+    bool shrinks = a->cover_network == def->network->serial && a->cover.radius >= def->clearance;
+    vn_box bounds = vn_domain_bounds(def->domain);
+    a->cover_network = def->network->serial;
+    a->cover_moved = def->network->moved;
+    a->cover_nodes = 0;
+    a->cover_darts = 0;
+    return vn_cover_init(&a->cover, a->dim, bounds.min, bounds.max,
+                         (shrinks ? 0.85 : 0.999) * def->clearance);
+}
+
+// Whether the cover can be asked, with all nodes in it.
+static vn_status renew_cover(vn_attractors *a, const vn_throw_def *def, int64_t darts, bool *use) {
+    const vn_network *network = def->network;
+    *use = false;
+    if (network == NULL || def->clearance <= 0) {
+        return VN_OK;
+    }
+    a->cover_darts += darts;
+    if (!covers(a, def)) {
+        if (8 * a->cover_darts < network->x.count) {
+            return VN_OK;
+        }
+        VN_TRY(make_cover(a, def));
+    }
+    for (; a->cover.cell > 0 && a->cover_nodes < network->x.count; a->cover_nodes++) {
+        double p[3];
+        vn_network_position(network, a->cover_nodes, p);
+        vn_cover_add(&a->cover, p);
+    }
+    *use = a->cover.cell > 0;
+    return VN_OK;
+}
+
 static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v, int32_t count,
                       int32_t *accepted) {
     clearing nodes;
     refusals r;
+    bool covered;
+    VN_TRY(renew_cover(a, def, count, &covered));
     VN_TRY(prepare_clearing(&nodes, def->network, def->clearance));
     VN_TRY(prepare_refusals(&r, a, &nodes, def->spacing));
     for (int32_t k = 0; k < count; k++) {
-        VN_TRY(land_one(&r, def->spacing, v->at[k], accepted));
+        if (!covered || !vn_cover_holds(&a->cover, v->at[k])) {
+            VN_TRY(land_one(&r, def->spacing, v->at[k], accepted));
+        }
     }
     return vn_poll();
 }

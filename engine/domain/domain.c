@@ -164,10 +164,11 @@ vn_status vn_domain_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     if (domain->kind->dart != NULL) {
         return domain->kind->dart(domain, rng, p);
     }
+    uint64_t begun = vn_hash_begin(rng->seed, rng->stream);
     for (int tries = 0; tries < 1000000; tries++) {
         p[2] = 0;
         for (int k = 0; k < domain->dim; k++) {
-            p[k] = vn_uniform_here(rng, domain->bounds.min[k], domain->bounds.max[k]);
+            p[k] = vn_uniform_here(rng, begun, domain->bounds.min[k], domain->bounds.max[k]);
         }
         if (domain->kind->contains(domain, p)) {
             return VN_OK;

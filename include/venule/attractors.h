@@ -133,8 +133,8 @@ typedef struct vn_extend_def {
                  ///< branch, is in the new segment's (Equation 4); default 0
     bool bias_mean;   ///< with perception: weigh ω against the mean of the directions to the attractors, of
                       ///< length 1; default false: against their sum, as printed (READINGS R18)
-    double bifurcate; ///< φ, degrees, 0 to 180, with perception: a leaf forks symmetrically where its
-                      ///< attractors deviate more from their mean direction (R19); default -1: never
+    double bifurcate; ///< φ, degrees, above 0, at most 180, with perception: a leaf forks symmetrically where
+                      ///< its attractors deviate more from their mean direction (R19); 0 (the default): never
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that

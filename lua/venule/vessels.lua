@@ -14,7 +14,7 @@ local tree_rows = {
   {"perception_angle", 90, above = 0, max = 360, unit = "degrees", doc = "γ: a leaf perceives what lies within half of it on either side of its direction, an inter-node around the optimal branch"},
   {"bias", 0.5, min = 0, max = 1, doc = "ω: how much of its own direction a vessel keeps, or of the optimal branch: 1 grows straight on"},
   {"bias_mean", true, doc = "weigh ω against the mean of the directions to drains, as the authors' program does; false: against their sum, as printed"},
-  {"bifurcation_threshold", 15, min = 0, max = 180, unit = "degrees", doc = "φ: a leaf whose drains lie farther apart forks symmetrically"},
+  {"bifurcation_threshold", 15, above = 0, max = 180, unit = "degrees", doc = "φ: a leaf whose drains lie farther apart forks symmetrically"},
   {"bifurcate", true, doc = "whether leaves fork at all"},
   {"lateral", true, doc = "whether inter-nodes grow laterals"},
   {"murray_exponent", 2.55, above = 2, max = 4, doc = "κ: r^κ adds up where vessels part, and branching angles follow from it"},

@@ -169,7 +169,7 @@ static garden garden_of(int dim, uint64_t seed) {
     g.grow.length = uniform(&g.rng, 0.05, 0.15);
     g.grow.bias = uniform(&g.rng, 0, 1);
     g.grow.bias_mean = whole(&g.rng, 0, 1) > 0;
-    g.grow.bifurcate = whole(&g.rng, 0, 2) > 0 ? uniform(&g.rng, 0, 40) : -1;
+    g.grow.bifurcate = whole(&g.rng, 0, 2) > 0 ? uniform(&g.rng, 0.1, 40) : 0;
     g.grow.domain = whole(&g.rng, 0, 1) > 0 ? g.domain : NULL;
     vn_murray_def law = {.exponent = g.r.kappa, .tip_radius = 0.01};
     assert_ok(vn_network_murray(g.net, &law));
