@@ -2,6 +2,7 @@
 
 #include "network/flow.h"
 #include "network/leaf.h"
+#include "network/sides.h"
 
 static const double pi = 3.141592653589793;
 
@@ -22,7 +23,8 @@ typedef struct audit {
     VN_ARRAY(uint8_t) degree;
     VN_ARRAY(int32_t) starts; // node v is met by spokes [starts[v], starts[v + 1])
     VN_ARRAY(int32_t) spokes; // pipes
-    number_array list, murray, fitted, logs;
+    number_array list, murray, fitted;
+    vn_sides sides; // of the node that is looked at
 } audit;
 
 static void free_audit(audit *a) {
@@ -33,7 +35,7 @@ static void free_audit(audit *a) {
     vn_array_free(&a->list);
     vn_array_free(&a->murray);
     vn_array_free(&a->fitted);
-    vn_array_free(&a->logs);
+    vn_sides_free(&a->sides);
 }
 
 static void note_worst(vn_flow_worst *worst, double error, int32_t node, int32_t join) {
@@ -186,98 +188,33 @@ static void check_conservation(audit *a, int32_t v) {
     note_worst(&a->report->conservation, passing > 0 ? fabs(into) / passing : 0, v, -1);
 }
 
-// What meets in a node: how many edges bring flow, how many take it, and the thickest of the parent's side.
-typedef struct meeting {
-    int32_t in, out;
-    bool parent_in; // the side of the one edge, or else what leads here
-    double radius;
-} meeting;
-
 static bool carries(const audit *a, double flow) {
     return fabs(flow) > ROUNDING * a->entering;
 }
 
-static meeting meet_at(const audit *a, int32_t v) {
-    meeting m = {0};
-    double in = 0, out = 0;
+static vn_status find_sides(audit *a, int32_t v) {
+    a->sides.in.count = a->sides.out.count = 0;
     for (int32_t k = a->starts.data[v]; k < a->starts.data[v + 1]; k++) {
         int32_t e = a->spokes.data[k];
         double flow = flow_into(a, v, e), radius = a->pipes.data[e].radius;
-        if (carries(a, flow) && flow > 0) {
-            m.in++;
-            in = fmax(in, radius);
-        } else if (carries(a, flow)) {
-            m.out++;
-            out = fmax(out, radius);
-        }
-    }
-    m.parent_in = m.in == 1 || m.out != 1;
-    m.radius = m.parent_in ? in : out;
-    return m;
-}
-
-// Radii are taken by that of the thickest on the parent's side, so that no power leaves the range of doubles
-// where the law holds.
-static double murray_residual(const audit *a, int32_t v, const meeting *m) {
-    double parents = 0, children = 0, exponent = a->def->exponent;
-    for (int32_t k = a->starts.data[v]; k < a->starts.data[v + 1]; k++) {
-        int32_t e = a->spokes.data[k];
-        double flow = flow_into(a, v, e);
-        double power = pow(a->pipes.data[e].radius / m->radius, exponent);
         if (carries(a, flow)) {
-            *((flow > 0) == m->parent_in ? &parents : &children) += power;
+            VN_TRY(flow > 0 ? vn_array_push(&a->sides.in, radius) : vn_array_push(&a->sides.out, radius));
         }
     }
-    return fabs(parents - children) / parents;
-}
-
-// Σ (r_child / r_parent)^x = 1 falls in x and is convex: Newton's steps from 0 come from below and never
-// pass the root.
-static double fit_exponent(const double *logs, int32_t count) {
-    enum { STEPS = 100 };
-    double x = 0;
-    for (int step = 0; step < STEPS; step++) {
-        double f = -1, slope = 0;
-        for (int32_t k = 0; k < count; k++) {
-            double power = exp(x * logs[k]);
-            f += power;
-            slope += logs[k] * power;
-        }
-        double next = x - f / slope;
-        if (!(next > x * (1 + 1e-14))) {
-            break;
-        }
-        x = next;
-    }
-    return x;
-}
-
-static vn_status fit_node(audit *a, int32_t v, const meeting *m) {
-    a->logs.count = 0;
-    for (int32_t k = a->starts.data[v]; k < a->starts.data[v + 1]; k++) {
-        int32_t e = a->spokes.data[k];
-        double flow = flow_into(a, v, e), radius = a->pipes.data[e].radius;
-        if (!carries(a, flow) || (flow > 0) == m->parent_in) {
-            continue;
-        }
-        if (!(radius < m->radius)) {
-            return VN_OK; // no exponent does
-        }
-        VN_TRY(vn_array_push(&a->logs, log(radius / m->radius)));
-    }
-    return vn_array_push(&a->fitted, fit_exponent(a->logs.data, a->logs.count));
+    return VN_OK;
 }
 
 static vn_status look_at_node(audit *a, int32_t v) {
     if (!vn_is_terminal(a->network, a->degree.data, v)) {
         check_conservation(a, v);
     }
-    meeting m = meet_at(a, v);
-    if (m.in + m.out < 3 || m.in == 0 || m.out == 0) {
+    VN_TRY(find_sides(a, v));
+    if (!vn_sides_meet(&a->sides)) {
         return VN_OK;
     }
-    VN_TRY(vn_array_push(&a->murray, murray_residual(a, v, &m)));
-    return m.in == 1 || m.out == 1 ? fit_node(a, v, &m) : VN_OK;
+    double exponent;
+    VN_TRY(vn_array_push(&a->murray, vn_sides_residual(&a->sides, a->def->exponent)));
+    return vn_sides_fit(&a->sides, &exponent) ? vn_array_push(&a->fitted, exponent) : VN_OK;
 }
 
 static vn_status look_at_nodes(audit *a) {
