@@ -199,15 +199,6 @@ vn_status vn_domain_measure_outline(vn_domain *domain) {
     return status;
 }
 
-static double halton(int32_t index, int32_t base) {
-    double value = 0, part = 1;
-    for (int32_t i = index; i > 0; i /= base) {
-        part /= base;
-        value += part * (i % base);
-    }
-    return value;
-}
-
 double vn_domain_measure_by_points(const vn_domain *domain) {
     enum { POINTS = 1 << 18 };
     static const int32_t bases[3] = {2, 3, 5};
@@ -220,7 +211,7 @@ double vn_domain_measure_by_points(const vn_domain *domain) {
     for (int32_t i = 1; i <= POINTS; i++) {
         double p[3] = {0};
         for (int k = 0; k < domain->dim; k++) {
-            p[k] = box->min[k] + halton(i, bases[k]) * (box->max[k] - box->min[k]);
+            p[k] = box->min[k] + vn_halton(i, bases[k]) * (box->max[k] - box->min[k]);
         }
         inside += vn_domain_contains(domain, p);
     }

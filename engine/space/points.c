@@ -30,6 +30,15 @@ uint64_t vn_morton(const double p[3], int dim, const double min[3], double size)
     return key;
 }
 
+double vn_halton(int32_t index, int32_t base) {
+    double value = 0, part = 1;
+    for (int32_t i = index; i > 0; i /= base) {
+        part /= base;
+        value += part * (i % base);
+    }
+    return value;
+}
+
 double vn_points_extent(const vn_points *points, int32_t begin, int32_t end, double low[3], double high[3]) {
     double size = -INFINITY;
     for (int k = 0; k < 3; k++) {

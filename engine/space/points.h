@@ -35,6 +35,9 @@ static inline bool vn_finite(const double p[3]) {
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
+/// Number @p index of a sequence that fills [0, 1) evenly; bases without a common factor fill boxes.
+double vn_halton(int32_t index, int32_t base);
+
 /// The place of @p p along a Z-shaped curve through the box: points near one another mostly get near keys.
 uint64_t vn_morton(const double p[3], int dim, const double min[3], double size);
 

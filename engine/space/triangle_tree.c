@@ -61,6 +61,7 @@ double vn_triangle_closest(const vn_triangle *t, const double p[3], double q[3])
 void vn_triangle_tree_free(vn_triangle_tree *tree) {
     vn_array_free(&tree->triangles);
     vn_array_free(&tree->numbers);
+    vn_array_free(&tree->radii);
     vn_array_free(&tree->packs);
     tree->levels = 0;
 }
@@ -78,10 +79,21 @@ static void include(box *b, const double low[3], const double high[3]) {
     }
 }
 
-static void include_triangle(box *b, const vn_triangle *t) {
-    include(b, t->a, t->a);
-    include(b, t->b, t->b);
-    include(b, t->c, t->c);
+static void include_corner(box *b, const double p[3], double radius) {
+    double low[3] = {p[0] - radius, p[1] - radius, p[2] - radius};
+    double high[3] = {p[0] + radius, p[1] + radius, p[2] + radius};
+    include(b, low, high);
+}
+
+static void include_triangle(box *b, const vn_triangle *t, double radius) {
+    include_corner(b, t->a, radius);
+    include_corner(b, t->b, radius);
+    include_corner(b, t->c, radius);
+}
+
+// Of the triangle at place @p i.
+static double radius_of(const vn_triangle_tree *tree, int32_t i) {
+    return tree->radii.count > 0 ? tree->radii.data[i] : 0;
 }
 
 // ---- Building ----
@@ -91,7 +103,7 @@ static const float MARGIN = 1e-6F;
 
 static void set_triangle_box(const vn_triangle_tree *tree, vn_triangle_pack *pack, int i, int32_t triangle) {
     box b = empty_box;
-    include_triangle(&b, &tree->triangles.data[triangle]);
+    include_triangle(&b, &tree->triangles.data[triangle], radius_of(tree, triangle));
     for (int k = 0; k < 3; k++) {
         pack->low[k][i] = (float)((b.low[k] - tree->low[k]) / tree->size) - MARGIN;
         pack->high[k][i] = (float)((b.high[k] - tree->low[k]) / tree->size) + MARGIN;
@@ -150,10 +162,11 @@ static vn_status build_packs(vn_triangle_tree *tree) {
     return VN_OK;
 }
 
-static void find_size(vn_triangle_tree *tree, const vn_triangle *triangles, int32_t count) {
+static void find_size(vn_triangle_tree *tree, const vn_triangle *triangles, const double *radii,
+                      int32_t count) {
     box all = empty_box;
     for (int32_t i = 0; i < count; i++) {
-        include_triangle(&all, &triangles[i]);
+        include_triangle(&all, &triangles[i], radii != NULL ? radii[i] : 0);
     }
     tree->size = 0;
     for (int k = 0; k < 3; k++) {
@@ -232,23 +245,39 @@ static vn_status put_in_order(vn_keyed_array *items, const vn_triangle *triangle
     return status;
 }
 
-vn_status vn_triangle_tree_build(vn_triangle_tree *tree, const vn_triangle *triangles, int32_t count) {
+static vn_status copy_in_order(vn_triangle_tree *tree, const vn_keyed_array *items,
+                               const vn_triangle *triangles, const double *radii) {
+    VN_TRY(vn_array_reserve(&tree->triangles, items->count));
+    VN_TRY(vn_array_reserve(&tree->numbers, items->count));
+    VN_TRY(vn_array_reserve(&tree->radii, radii != NULL ? items->count : 0));
+    for (int32_t i = 0; i < items->count; i++) {
+        int32_t number = items->data[i].value;
+        tree->numbers.data[tree->numbers.count++] = number;
+        tree->triangles.data[tree->triangles.count++] = triangles[number];
+        if (radii != NULL) {
+            tree->radii.data[tree->radii.count++] = radii[number];
+        }
+    }
+    return VN_OK;
+}
+
+vn_status vn_triangle_tree_build_thick(vn_triangle_tree *tree, const vn_triangle *triangles,
+                                       const double *radii, int32_t count) {
     vn_keyed_array items = {0};
     vn_triangle_tree_free(tree);
-    find_size(tree, triangles, count);
+    find_size(tree, triangles, radii, count);
     vn_status status = put_in_order(&items, triangles, count);
-    status = status == VN_OK ? vn_array_reserve(&tree->triangles, count) : status;
-    status = status == VN_OK ? vn_array_reserve(&tree->numbers, count) : status;
-    for (int32_t i = 0; status == VN_OK && i < count; i++) {
-        tree->numbers.data[tree->numbers.count++] = items.data[i].value;
-        tree->triangles.data[tree->triangles.count++] = triangles[items.data[i].value];
-    }
+    status = status == VN_OK ? copy_in_order(tree, &items, triangles, radii) : status;
     vn_array_free(&items);
     status = status == VN_OK && count > 0 ? build_packs(tree) : status;
     if (status != VN_OK) {
         vn_triangle_tree_free(tree);
     }
     return status;
+}
+
+vn_status vn_triangle_tree_build(vn_triangle_tree *tree, const vn_triangle *triangles, int32_t count) {
+    return vn_triangle_tree_build_thick(tree, triangles, NULL, count);
 }
 
 // ---- Searching ----
@@ -316,9 +345,19 @@ typedef struct near_query {
     double q[3];
 } near_query;
 
+// Of a point from the triangle at place @p i, or from its thick surface.
+static double distance2_to(const vn_triangle_tree *tree, int32_t i, const double p[3], double q[3]) {
+    double d2 = vn_triangle_closest(&tree->triangles.data[i], p, q);
+    if (tree->radii.count == 0) {
+        return d2;
+    }
+    double d = fmax(sqrt(d2) - tree->radii.data[i], 0);
+    return d * d;
+}
+
 static void compare_triangle(near_query *query, int32_t i) {
     double q[3];
-    double d2 = vn_triangle_closest(&query->tree->triangles.data[i], query->p, q);
+    double d2 = distance2_to(query->tree, i, query->p, q);
     int32_t number = query->tree->numbers.data[i];
     if (d2 < query->best2 || (d2 == query->best2 && (query->found < 0 || number < query->found))) {
         query->best2 = d2;
@@ -390,7 +429,7 @@ typedef struct around_query {
 static bool visit_near(const around_query *query, int32_t i) {
     double q[3];
     const vn_triangle_tree *tree = query->tree;
-    return vn_triangle_closest(&tree->triangles.data[i], query->p, q) > query->reach2 ||
+    return distance2_to(tree, i, query->p, q) > query->reach2 ||
            query->visit(tree->numbers.data[i], query->payload);
 }
 

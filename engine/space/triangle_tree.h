@@ -21,6 +21,7 @@ typedef struct vn_triangle_pack {
 typedef struct vn_triangle_tree {
     VN_ARRAY(vn_triangle) triangles; ///< neighbours beside one another
     VN_ARRAY(int32_t) numbers;       ///< of each of them, as they were given
+    VN_ARRAY(double) radii;          ///< how thick each of them is; empty: none is
     VN_ARRAY(vn_triangle_pack) packs;
     int32_t starts[VN_TRIANGLE_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1])
     int levels;                             ///< level 0 boxes triangles
@@ -32,18 +33,23 @@ double vn_triangle_closest(const vn_triangle *triangle, const double p[3], doubl
 
 /// Build it of @p count triangles, a copy of which it keeps. All corners are finite.
 vn_status vn_triangle_tree_build(vn_triangle_tree *tree, const vn_triangle *triangles, int32_t count);
+/// The same of thick ones: all that is within @p radii[i] (0 or more) of triangle i belongs to it.
+vn_status vn_triangle_tree_build_thick(vn_triangle_tree *tree, const vn_triangle *triangles,
+                                       const double *radii, int32_t count);
 void vn_triangle_tree_free(vn_triangle_tree *tree);
 
 /// The number of the triangle nearest to @p p, among those within squared distance @p reach2, or -1; of
-/// equally near ones the lowest number. @p d2 gets the squared distance, @p q the nearest point.
+/// equally near ones the lowest number. @p d2 gets the squared distance, @p q the nearest point. To thick
+/// ones the distance is that to their surface, and 0 inside; @p q is the nearest point of the triangle all
+/// the same.
 int32_t vn_triangle_tree_nearest(const vn_triangle_tree *tree, const double p[3], double reach2, double *d2,
                                  double q[3]);
 
 /// Called with a triangle's number; false ends the visit.
 typedef bool vn_triangle_visit(int32_t number, void *payload);
 
-/// Visit all triangles within squared distance @p reach2 of @p p, in an order that depends on the tree alone.
-/// False when a visit was ended.
+/// Visit all triangles, thick or not, within squared distance @p reach2 of @p p, in an order that depends on
+/// the tree alone. False when a visit was ended.
 bool vn_triangle_tree_around(const vn_triangle_tree *tree, const double p[3], double reach2,
                              vn_triangle_visit *visit, void *payload);
 

@@ -121,6 +121,9 @@ void vnl_set_number(lua_State *L, const char *name, double value);
 /// A field with a list of numbers, and one with what describes such a list.
 void vnl_set_list(lua_State *L, const char *name, const double *values, int32_t count);
 void vnl_set_statistics(lua_State *L, const char *name, const vn_statistics *statistics);
+/// A field {mean = …, deviation = …}, and one with coordinates.
+void vnl_set_spread(lua_State *L, const char *name, const vn_spread *spread);
+void vnl_set_point(lua_State *L, const char *name, int dim, const double p[3]);
 /// Push @p size zeroed bytes of Lua's own, which @p release frees what hangs from even when Lua runs out of
 /// memory half way.
 void *vnl_push_owned(lua_State *L, size_t size, lua_CFunction release);
@@ -151,6 +154,10 @@ int vnl_network_voxels(lua_State *L);
 /// net:flow{…} and net:levels().
 int vnl_network_flow(lua_State *L);
 int vnl_network_levels(lua_State *L);
+/// net:measure_vessels{…}, net:measure_boxes{…} and net:measure_tissue{…}
+int vnl_network_measure_vessels(lua_State *L);
+int vnl_network_measure_boxes(lua_State *L);
+int vnl_network_measure_tissue(lua_State *L);
 
 /// Push a view of one column of the object at stack index @p object: read by integers from 1, `#`, and
 /// ipairs().

@@ -107,13 +107,6 @@ int vnl_network_flow(lua_State *L) {
     return 1;
 }
 
-static void set_spread(lua_State *L, const char *name, const vn_spread *spread) {
-    lua_createtable(L, 0, 2);
-    vnl_set_number(L, "mean", spread->mean);
-    vnl_set_number(L, "deviation", spread->deviation);
-    lua_setfield(L, -2, name);
-}
-
 static void push_levels(lua_State *L, const vn_levels *levels) {
     lua_createtable(L, levels->count, 4);
     for (int32_t k = 0; k < levels->count; k++) {
@@ -121,10 +114,10 @@ static void push_levels(lua_State *L, const vn_levels *levels) {
         lua_createtable(L, 0, 5);
         vnl_set_integer(L, "level", k);
         vnl_set_integer(L, "count", level->count);
-        set_spread(L, "diameter", &level->diameter);
-        set_spread(L, "length", &level->length);
+        vnl_set_spread(L, "diameter", &level->diameter);
+        vnl_set_spread(L, "length", &level->length);
         if (levels->has_flow) {
-            set_spread(L, "flow", &level->flow);
+            vnl_set_spread(L, "flow", &level->flow);
         }
         lua_rawseti(L, -2, k + 1);
     }

@@ -3,6 +3,7 @@
 #include "colonize/attractors.h"
 #include "network/flow.h"
 #include "network/leaf.h"
+#include "network/vessels.h"
 
 #include <string.h>
 
@@ -293,6 +294,40 @@ static const vnl_function methods[] = {
      "max_radius, extent. With `leaf = true` also what botanists measure in leaves, as `leaf`: vein density, "
      "areoles, free ends, junctions, the hierarchy of loops, angles, distances to veins.",
      &vn_leaf_schema},
+    {"measure_vessels", vnl_network_measure_vessels,
+     "(options?: venule.measure_vessels.Options): venule.VesselMeasures", NULL,
+     "What anatomists measure in vessels. By how much Murray's law is missed where three edges or more meet "
+     "(`murray`), and the exponents that would keep it (`fitted`). At bifurcations, nodes with a parent and "
+     "two children: the daughters' `ratio` r2/r1, their area by the parent's (`expansion`), `angles` in "
+     "degrees between the daughters and of the thick and the thin one to the parent's direction, by bins of "
+     "the ratio with Murray's optimal angles (`theory`). Diameter, length and count by order, of segments "
+     "(from fork to fork) and of elements (segments of one order in series), and the ratios from order to "
+     "order, by regression. `tortuosity` is arc by chord, `curvature` the mean squared curvature along "
+     "(radians²/length²). Lengths are the network's. Joins are nobody's children: they count for Murray's "
+     "law "
+     "alone.",
+     &vn_vessel_measures_schema},
+    {"measure_boxes", vnl_network_measure_boxes, "(options?: venule.measure_boxes.Options): venule.Boxes",
+     NULL,
+     "The box-counting dimension, always by one protocol: boxes of the extent / 2^k, where the extent is the "
+     "longest side of the nodes' bounds; a box counts when an edge passes it, exactly; of several grids, "
+     "each "
+     "shifted by a part of the largest box (Halton's points, bases 3, 5, 7), the least count of each size; "
+     "the "
+     "slope of the least-squares line of ln count over ln 1/side. Known figures come out as: lines 1, filled "
+     "squares 1.96 to 2.0, Koch's curve 1.26 ± 0.02, Sierpinski's triangle 1.58 ± 0.03. Boxes smaller than "
+     "the "
+     "mesh of a network see lines only: give `finest` to suit it, and look at `boxes`.",
+     &vn_boxes_schema},
+    {"measure_tissue", vnl_network_measure_tissue, "(options: venule.measure_tissue.Options): venule.Tissue",
+     NULL,
+     "How far the points of a domain are from the nearest vessel: statistics, the `furthest` point, the most "
+     "frequent distance (`mode`), a `histogram`, the share of points in vessels (`lumen`, 0 away) and within "
+     "`reach` (`perfused`). Points are on a square or cubic grid; on surfaces at random, evenly by area, "
+     "with "
+     "distances straight through space. No point is much farther than `furthest`: from one point to another "
+     "distances differ by no more than these are apart.",
+     &vn_tissue_schema},
     {"flow", NULL, "(options?: venule.flow.Options): venule.FlowReport", NULL,
      "Solve Poiseuille's law for the flow in every edge (then read as `net.flow`, joins' by net:joins()) and "
      "the pressure at every node (`net.pressure`), and say what can be said of them. Pressures are in Pa, "

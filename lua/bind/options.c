@@ -302,6 +302,13 @@ void vnl_set_statistics(lua_State *L, const char *name, const vn_statistics *s) 
     lua_setfield(L, -2, name);
 }
 
+void vnl_set_spread(lua_State *L, const char *name, const vn_spread *spread) {
+    lua_createtable(L, 0, 2);
+    vnl_set_number(L, "mean", spread->mean);
+    vnl_set_number(L, "deviation", spread->deviation);
+    lua_setfield(L, -2, name);
+}
+
 int vnl_push_coordinates(lua_State *L, int dim, const double p[3]) {
     for (int k = 0; k < dim; k++) {
         lua_pushnumber(L, p[k]);
@@ -309,7 +316,7 @@ int vnl_push_coordinates(lua_State *L, int dim, const double p[3]) {
     return dim;
 }
 
-static void push_corner(lua_State *L, int dim, const double p[3], const char *name) {
+void vnl_set_point(lua_State *L, const char *name, int dim, const double p[3]) {
     lua_createtable(L, dim, 0);
     for (int k = 0; k < dim; k++) {
         lua_pushnumber(L, p[k]);
@@ -320,8 +327,8 @@ static void push_corner(lua_State *L, int dim, const double p[3], const char *na
 
 void vnl_push_bounds(lua_State *L, int dim, const vn_box *box, const char *unit) {
     lua_createtable(L, 0, 3);
-    push_corner(L, dim, box->min, "min");
-    push_corner(L, dim, box->max, "max");
+    vnl_set_point(L, "min", dim, box->min);
+    vnl_set_point(L, "max", dim, box->max);
     if (unit != NULL && unit[0] != '\0') {
         lua_pushstring(L, unit);
         lua_setfield(L, -2, "unit");
