@@ -39,9 +39,10 @@ static vn_status find_extent(box_count *c) {
                                                      "number; use another length unit");
 }
 
-// Up to 2^finest boxes, rounded to parts.
+// Within the first 2^finest boxes, rounded to parts: an extent that ended on a face would take one more in each
+// direction, and a line of 2^k boxes count as 2^k + 1.
 static void place_of(const box_count *c, int32_t node, int64_t q[3]) {
-    double p[3], parts = ldexp(VN_BOX_PARTS, c->def->finest);
+    double p[3], parts = ldexp(VN_BOX_PARTS, c->def->finest) - 1;
     vn_network_position(c->network, node, p);
     for (int k = 0; k < 3; k++) {
         double share = c->extent > 0 ? (p[k] - c->low[k]) / c->extent : 0;

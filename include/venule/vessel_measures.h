@@ -102,7 +102,10 @@ VN_API void vn_vessel_measures_free(vn_vessel_measures *measures);
 /// A box counts when an edge passes it, exactly (places are rounded to 1/32768 of the smallest box; a box has
 /// its lower faces and not its upper ones). Of several grids, each shifted by a part of the largest box in
 /// every direction (Halton's points in the bases 3, 5 and 7), the least count holds, for each size by itself.
-/// The dimension is the slope of the least-squares line through ln count over ln 1 / side.
+/// The dimension is the slope of the least-squares line through ln count over ln 1 / side. By the default
+/// range, in whatever direction they lie, straight lines have 1 to 1.05, filled squares 1.85 to 2.03, Koch's
+/// curve (1.262) 1.27 to 1.33 and Sierpinski's triangle (1.585) 1.58 to 1.64. (Means over the grids are no
+/// nearer: they miss as much the other way.)
 typedef struct vn_boxes_def {
     int32_t coarsest; ///< k of the largest boxes; 0 to 14, default 2
     int32_t finest;   ///< k of the smallest boxes; above `coarsest`, at most 15, and in 3D 10; default 8

@@ -1,4 +1,4 @@
-#include "host/host.h"
+#include "host/info.h"
 
 #include "base/text.h"
 #include "venule/output.h"
@@ -98,6 +98,16 @@ static vn_status print_leaf(const vn_network *network) {
     return VN_OK;
 }
 
+static vn_status print_vessels(const vn_network *network) {
+    vessel_info info;
+    vn_status status = vessel_info_measure(&info, network);
+    if (status == VN_OK) {
+        vessel_info_print(&info);
+    }
+    vn_vessel_measures_free(&info.measures);
+    return status;
+}
+
 static vn_status print_text(const vn_network *network, const char *name) {
     vn_network_measures m;
     vn_status status = vn_network_measure(network, &m);
@@ -112,14 +122,20 @@ static vn_status print_text(const vn_network *network, const char *name) {
     printf("  length       %g\n", m.length);
     print_range("extent", m.extent.min, m.extent.max, vn_network_dim(network));
     print_range("radius", &m.min_radius, &m.max_radius, 1);
-    return vn_network_dim(network) == 2 ? print_leaf(network) : VN_OK;
+    status = print_vessels(network);
+    return status == VN_OK && vn_network_dim(network) == 2 ? print_leaf(network) : status;
 }
 
-static void json_statistics(const char *name, const vn_statistics *s) {
-    printf(
-        ", \"%s\": {\"count\": %d, \"mean\": %.17g, \"deviation\": %.17g, \"min\": %.17g, \"lower\": %.17g, "
-        "\"median\": %.17g, \"upper\": %.17g, \"max\": %.17g}",
-        name, s->count, s->mean, s->deviation, s->min, s->lower, s->median, s->upper, s->max);
+void json_numbers(const vn_statistics *s) {
+    printf("\"count\": %d, \"mean\": %.17g, \"deviation\": %.17g, \"min\": %.17g, \"lower\": %.17g, "
+           "\"median\": %.17g, \"upper\": %.17g, \"max\": %.17g",
+           s->count, s->mean, s->deviation, s->min, s->lower, s->median, s->upper, s->max);
+}
+
+void json_statistics(const char *name, const vn_statistics *s) {
+    printf(", \"%s\": {", name);
+    json_numbers(s);
+    printf("}");
 }
 
 static void json_angles(const vn_branching_angles *angles) {
@@ -169,14 +185,17 @@ static void json_basics(const vn_network *network, const char *name, const vn_ne
 static vn_status print_json(const vn_network *network, const char *name) {
     vn_network_measures m;
     vn_leaf_measures leaf = {0};
+    vessel_info vessels = {0};
     vn_leaf_def def = vn_leaf_def_default();
     vn_text quoted = {0};
     bool flat = vn_network_dim(network) == 2;
     vn_status status = vn_network_measure(network, &m);
     status = status == VN_OK && flat ? vn_network_measure_leaf(network, &def, &leaf) : status;
+    status = status == VN_OK ? vessel_info_measure(&vessels, network) : status;
     status = status == VN_OK ? vn_text_json(&quoted, name) : status;
     if (status == VN_OK) {
         json_basics(network, quoted.data, &m);
+        vessel_info_json(&vessels);
         if (flat) {
             json_leaf(&leaf);
         }
@@ -184,6 +203,7 @@ static vn_status print_json(const vn_network *network, const char *name) {
     }
     vn_array_free(&quoted);
     vn_leaf_measures_free(&leaf);
+    vn_vessel_measures_free(&vessels.measures);
     return status;
 }
 
