@@ -39,8 +39,8 @@ static vn_status find_extent(box_count *c) {
                                                      "number; use another length unit");
 }
 
-// Within the first 2^finest boxes, rounded to parts: an extent that ended on a face would take one more in each
-// direction, and a line of 2^k boxes count as 2^k + 1.
+// Within the first 2^finest boxes, rounded to parts: an extent that ended on a face would take one more in
+// each direction, and a line of 2^k boxes count as 2^k + 1.
 static void place_of(const box_count *c, int32_t node, int64_t q[3]) {
     double p[3], parts = ldexp(VN_BOX_PARTS, c->def->finest) - 1;
     vn_network_position(c->network, node, p);

@@ -8,8 +8,9 @@ static const vn_field measures_fields[] = {
     {"exponent", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_vessel_measures_def, exponent), 0, 100, "",
      NULL, "κ in r_parent^κ = Σ r_child^κ, as murray's; left out: that of the law in force, or 3"},
     {"orders", VN_CHOICE, 0, offsetof(vn_vessel_measures_def, orders), 0, 0, "", "strahler|diameter",
-     "orders by Strahler (tips 1, one more where two of the highest meet), or from there by diameter until "
-     "each order has its own range (Jiang, Kassab & Fung 1994)"},
+     "by Strahler: tips 1, one more where two of the highest meet; by diameter: one more where a vessel is "
+     "too "
+     "thick for the order of its daughters (after Jiang, Kassab & Fung 1994)"},
     {"bins", VN_I32, 0, offsetof(vn_vessel_measures_def, bins), 1, 1000, "bins", NULL,
      "of the daughters' ratio r2/r1 from 0 to 1, for angles"},
 };

@@ -36,18 +36,25 @@ static vn_status order_by_strahler(ordering *o, const vn_network *network) {
 
 // ---- By diameter ----
 
+// The limits go on creeping downwards for ever, until the highest order has swallowed most others: so it is
+// that authors stop at a hundredth. (Tried: orders by those ranges alone, without regard to daughters. They
+// creep faster, and may leave a single one.)
 enum { MOST_ROUNDS = 100 };
+static const double SETTLED = 0.01;
 
 typedef struct diameter_class {
     int32_t count;
-    int32_t number; // of those that have any, from 1
     vn_spread diameter;
-    double limit; // what is thicker is of a higher order
+    double limit;  // what is thicker is of a higher order
+    double before; // the mean a round ago, or 0
 } diameter_class;
 
 typedef VN_ARRAY(diameter_class) class_array;
 
 static void survey_classes(const ordering *o, class_array *classes) {
+    for (int32_t k = 0; k < classes->count; k++) {
+        classes->data[k] = (diameter_class){.before = classes->data[k].diameter.mean};
+    }
     for (int32_t i = 0; i < o->order.count; i++) {
         diameter_class *one = &classes->data[o->order.data[i] - 1];
         one->count++;
@@ -58,7 +65,17 @@ static void survey_classes(const ordering *o, class_array *classes) {
     }
 }
 
-// Of several thick spreads the limits may be the wrong way round: a higher one is at least the one below.
+static bool is_settled(const class_array *classes) {
+    for (int32_t k = 0; k < classes->count; k++) {
+        double mean = classes->data[k].diameter.mean, before = classes->data[k].before;
+        if (fabs(mean - before) > SETTLED * before) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Of several wide spreads the limits may be the wrong way round: a higher one is at least the one below.
 static void set_limits(class_array *classes) {
     double least = -INFINITY;
     for (int32_t k = 0; k + 1 < classes->count; k++) {
@@ -70,58 +87,51 @@ static void set_limits(class_array *classes) {
     classes->data[classes->count - 1].limit = INFINITY;
 }
 
-static int32_t class_of(const class_array *classes, double diameter) {
-    int32_t low = 0, high = classes->count - 1;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (diameter > classes->data[middle].limit) {
-            low = middle + 1;
-        } else {
-            high = middle;
+// From the tips, which stay of order 1: a segment has the highest order of its daughters, or the next one
+// when it is too thick for that.
+static void assign_orders(ordering *o, const class_array *classes, index_array *below) {
+    const vn_branch *list = o->branches->list.data;
+    for (int32_t i = 0; i < below->count; i++) {
+        below->data[i] = 0;
+    }
+    for (int32_t i = o->order.count - 1; i >= 0; i--) {
+        int32_t highest = below->data[i], before = list[i].before;
+        bool thicker = highest > 0 && vn_branch_diameter(&list[i]) > classes->data[highest - 1].limit;
+        int32_t order = highest > 0 ? highest + thicker : 1;
+        o->order.data[i] = order;
+        if (before >= 0 && order > below->data[before]) {
+            below->data[before] = order;
         }
     }
-    return low;
+    o->highest = highest_of(&o->order);
 }
 
-static bool assign_classes(ordering *o, class_array *classes) {
-    bool changed = false;
-    for (int32_t k = 0; k < classes->count; k++) {
-        classes->data[k].count = 0;
-    }
-    for (int32_t i = 0; i < o->order.count; i++) {
-        int32_t class = class_of(classes, vn_branch_diameter(&o->branches->list.data[i]));
-        classes->data[class].count++;
-        changed = changed || o->order.data[i] != class + 1;
-        o->order.data[i] = class + 1;
-    }
-    return changed;
-}
-
-static void drop_empty_classes(ordering *o, class_array *classes) {
-    o->highest = 0;
-    for (int32_t k = 0; k < classes->count; k++) {
-        o->highest += classes->data[k].count > 0;
-        classes->data[k].number = o->highest;
-    }
-    for (int32_t i = 0; i < o->order.count; i++) {
-        o->order.data[i] = classes->data[o->order.data[i] - 1].number;
+static void settle_orders(ordering *o, class_array *classes, index_array *below) {
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        bool same = classes->count == o->highest; // the highest may have been lost
+        classes->count = o->highest;
+        survey_classes(o, classes);
+        if (round > 0 && same && is_settled(classes)) {
+            return;
+        }
+        set_limits(classes);
+        assign_orders(o, classes, below);
     }
 }
 
 static vn_status order_by_diameter(ordering *o) {
     class_array classes = {0};
-    vn_status status = VN_OK;
-    bool changed = o->highest > 0;
-    for (int round = 0; changed && round < MOST_ROUNDS && status == VN_OK; round++) {
-        status = vn_array_zero(&classes, o->highest);
-        if (status == VN_OK) {
-            survey_classes(o, &classes);
-            set_limits(&classes);
-            changed = assign_classes(o, &classes);
-            drop_empty_classes(o, &classes);
-        }
+    index_array below = {0};
+    if (o->highest == 0) {
+        return VN_OK;
+    }
+    vn_status status = vn_array_zero(&below, o->order.count);
+    status = status == VN_OK ? vn_array_zero(&classes, o->highest) : status;
+    if (status == VN_OK) {
+        settle_orders(o, &classes, &below);
     }
     vn_array_free(&classes);
+    vn_array_free(&below);
     return status;
 }
 

@@ -12,7 +12,8 @@ extern "C" {
 
 typedef enum vn_vessel_orders {
     VN_ORDERS_STRAHLER, ///< tips 1; one more where two of the highest order meet
-    VN_ORDERS_DIAMETER, ///< the same, then by diameter (Jiang, Kassab & Fung 1994); see below
+    VN_ORDERS_DIAMETER, ///< one more where a vessel is too thick for the order of its daughters, after Jiang,
+                        ///< Kassab & Fung 1994; see vn_network_measure_vessels()
 } vn_vessel_orders;
 
 typedef struct vn_vessel_measures_def {
@@ -89,11 +90,11 @@ typedef struct vn_vessel_measures {
     vn_statistics segment_curvature, element_curvature;
 } vn_vessel_measures;
 
-/// Measure a network; let it go by vn_vessel_measures_free(). Orders by diameter begin with Strahler's; then,
-/// as long as that changes something (a hundred times at most), the limit between two orders is the mean of
-/// the lower one's mean diameter + deviation and of the upper one's mean - deviation, and each segment gets
-/// the order in whose limits its diameter is; orders that nothing is left of are dropped. VN_INVALID for
-/// these without radii.
+/// Measure a network; let it go by vn_vessel_measures_free(). Orders by diameter begin with Strahler's. Then,
+/// until no order's mean diameter changes by more than a hundredth (a hundred times at most), the limit above
+/// an order is the mean of its own mean diameter + deviation and of the next one's mean - deviation (and no
+/// less than the limit below); tips have order 1, and other segments the highest of their daughters' orders,
+/// or the next one where they are thicker than its limit. VN_INVALID for these without radii.
 VN_API vn_status vn_network_measure_vessels(const vn_network *network, const vn_vessel_measures_def *def,
                                             vn_vessel_measures *out);
 VN_API void vn_vessel_measures_free(vn_vessel_measures *measures);

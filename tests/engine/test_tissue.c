@@ -210,6 +210,10 @@ static void what_is_in_vessels(void **state) {
     assert_near(fabs(tissue.furthest[0]), 5, tissue.resolution);
     assert_near(tissue.furthest[1], -5, tissue.resolution);
     vn_tissue_free(&tissue);
+    def.resolution = 0.25; // of points at equal distances, the first
+    tissue = measured_by(network, &def);
+    assert_true(tissue.furthest[0] == -4.875 && tissue.furthest[1] == -4.875 && tissue.furthest[2] == 0);
+    vn_tissue_free(&tissue);
     vn_network_destroy(network);
     vn_domain_release(box);
 }

@@ -432,51 +432,56 @@ static void cut_strips(strips *s) {
     }
 }
 
-// Orders by diameter as the header says, with a pass over all for everything.
-static void reorder(strips *s) {
+static int32_t order_by_limits(const strips *s, int32_t i, const double *limit, int32_t highest) {
+    int32_t most = 0;
+    for (int32_t j = 0; j < s->count; j++) {
+        int32_t order = s->list[j].before == i ? order_by_limits(s, j, limit, highest) : 0;
+        most = order > most ? order : most;
+    }
+    return most == 0 ? 1 : most + (most < highest && s->list[i].diameter > limit[most]);
+}
+
+static int32_t highest_order(const strips *s) {
     int32_t highest = 0;
     for (int32_t i = 0; i < s->count; i++) {
         highest = s->list[i].order > highest ? s->list[i].order : highest;
     }
-    bool changed = true;
-    for (int round = 0; changed && round < 100; round++) {
-        double low[MOST], high[MOST], limit[MOST];
+    return highest;
+}
+
+// Orders by diameter as the header says, with a pass over all for everything.
+static void reorder(strips *s) {
+    double last[MOST] = {0};
+    int32_t before = 0;
+    for (int round = 0; round < 100; round++) {
+        double mean[MOST] = {0}, deviation[MOST] = {0}, limit[MOST] = {0};
+        int32_t highest = highest_order(s);
+        bool settled = highest == before;
         for (int32_t k = 1; k <= highest; k++) {
-            double sum = 0, squares = 0, n = 0;
+            double n = 0;
             for (int32_t i = 0; i < s->count; i++) {
-                sum += s->list[i].order == k ? s->list[i].diameter : 0;
+                mean[k] += s->list[i].order == k ? s->list[i].diameter : 0;
                 n += s->list[i].order == k;
             }
+            mean[k] /= n;
             for (int32_t i = 0; i < s->count; i++) {
-                squares += s->list[i].order == k ? pow(s->list[i].diameter - sum / n, 2) : 0;
+                deviation[k] += s->list[i].order == k ? pow(s->list[i].diameter - mean[k], 2) / n : 0;
             }
-            low[k] = sum / n - sqrt(squares / n);
-            high[k] = sum / n + sqrt(squares / n);
+            deviation[k] = sqrt(deviation[k]);
+            settled = settled && fabs(mean[k] - last[k]) <= 0.01 * last[k];
+            last[k] = mean[k];
         }
+        if (settled) {
+            return;
+        }
+        before = highest;
         for (int32_t k = 1; k < highest; k++) {
-            limit[k] = (high[k] + low[k + 1]) / 2;
+            limit[k] = (mean[k] + deviation[k] + mean[k + 1] - deviation[k + 1]) / 2;
             limit[k] = k > 1 ? fmax(limit[k], limit[k - 1]) : limit[k];
         }
-        bool used[MOST] = {false};
-        changed = false;
         for (int32_t i = 0; i < s->count; i++) {
-            int32_t order = 1;
-            for (int32_t k = 1; k < highest; k++) {
-                order += s->list[i].diameter > limit[k];
-            }
-            changed = changed || order != s->list[i].order;
-            s->list[i].order = order;
-            used[order] = true;
+            s->list[i].order = order_by_limits(s, i, limit, highest);
         }
-        int32_t number[MOST], kept = 0;
-        for (int32_t k = 1; k <= highest; k++) {
-            kept += used[k];
-            number[k] = kept;
-        }
-        for (int32_t i = 0; i < s->count; i++) {
-            s->list[i].order = number[s->list[i].order];
-        }
-        highest = kept;
     }
 }
 
@@ -667,13 +672,14 @@ static void a_trunk_is_one_element(void **state) {
     vn_network_destroy(network);
 }
 
-// Tips as thick as the trunk are of its order by diameter: the trunk goes on through the thickest.
+// By Strahler the trunk from the root to the last fork has one order; by diameter its thick half has another.
+// The thin half is of order 1, as the tips are.
 static void orders_by_diameter_follow_the_width(void **state) {
     (void)state;
-    static const double radius[] = {0, 4, 4, 1, 4, 1, 4};
+    static const double radius[] = {0, 8, 8, 1, 1.5, 1, 1.5, 1, 1};
     vn_network *network = network_of(2);
     int32_t at = put_child(network, put_root(network, 0, 0, 0), 1, 0, 0);
-    for (int i = 2; i <= 3; i++) {
+    for (int i = 2; i <= 4; i++) {
         int32_t next = put_child(network, at, i, 0, 0);
         put_child(network, at, i, 1, 0);
         at = next;
@@ -684,10 +690,11 @@ static void orders_by_diameter_follow_the_width(void **state) {
     def.orders = VN_ORDERS_DIAMETER;
     vn_vessel_measures m = measured_by(network, &def);
     assert_int_equal(m.order_count, 2);
-    assert_int_equal(m.orders[0].segments, 2);
-    assert_int_equal(m.orders[1].segments, 3);
+    assert_int_equal(m.orders[0].segments, 5);
+    assert_int_equal(m.orders[1].segments, 2);
     assert_int_equal(m.orders[1].elements, 1);
-    assert_true(m.orders[1].element_diameter.mean == 8 && m.orders[1].element_length.mean == 9);
+    assert_true(m.orders[1].element_diameter.mean == 16 && m.orders[1].element_length.mean == 2);
+    assert_int_equal(m.orders[0].elements, 4); // the thickest goes on: the thin half of the trunk
     vn_vessel_measures_free(&m);
     vn_network_destroy(network);
 }
@@ -708,7 +715,7 @@ static void little_is_measured_too(void **state) {
         put_child(network, i / 2, 1, 1, 1);
     }
     m = measured(network);
-    assert_int_equal(m.segments, 6); // one passes a node with a single child
+    assert_int_equal(m.segments, 6);     // one passes a node with a single child
     assert_int_equal(m.bifurcations, 2); // the root has no parent
     assert_int_equal(m.between.count + m.segment_tortuosity.count + m.element_curvature.count, 0);
     assert_true(m.orders[0].segment_length.mean == 0 && m.length_ratio.ratio == 0);

@@ -223,8 +223,12 @@ says "--json counts" '"nodes": '
 expect "info" 0 "" "$program" info "$to/a.json"
 says "info counts" "bifurcations"
 says "info measures leaves" "vein density"
+says "info measures vessels" "from order to order: counts by"
+says "info counts boxes" "dimension "
 expect "info --json" 0 "" "$program" info "$to/a.json" --json
 is_json "info --json prints JSON" "$work/out"
+says "with vessels" '"vessels": {"exponent": '
+says "and boxes" '"boxes": {"dimension": '
 cd "$to" && rm -rf ./* && expect "without -o" 0 "" "$program" run "$work/in/leaf.lua"
 if [ "$(left)" = leaf.png ]; then ok "a file called after the script"; else bad "a file called after the script" "$(left)"; fi
 if ls -A "$to" | grep -q '\.part'; then bad "no part is left" "$(left)"; else ok "no part is left"; fi
