@@ -46,7 +46,7 @@ line("fewer elements an order up", ("by %.3g (r² %.3g)"):format(m.bifurcation_r
 line("thicker an order up", ("by %.3g (r² %.3g)"):format(m.diameter_ratio.ratio, m.diameter_ratio.r2),
   "pig coronary, orders 1 to 11: 1.82 (Kassab 1993)")
 line("longer an order up", ("by %.3g (r² %.3g)"):format(m.length_ratio.ratio, m.length_ratio.r2),
-  "pig coronary, orders 1 to 11: 1.91 (Kassab 1993)")
+  "pig coronary, orders 1 to 10: 1.82 (Kassab 1993)")
 line("arc by chord, elements", spread(m.tortuosity.elements))
 line("box dimension", ("%.3g (r² %.3g)"):format(boxes.dimension, boxes.r2),
   "conjunctiva 1.60 ± 0.07, by another protocol (methods differ by more)")
@@ -72,7 +72,7 @@ local function angles()
   }
 end
 
--- Elements of the right coronary artery of pigs, µm (Kassab et al. 1993).
+-- Diameters of elements of the right coronary artery of pigs, µm (Kassab et al. 1993, as others quote them).
 local KASSAB = {9.3, 12.8, 17.7, 28.6, 63.1, 132, 256, 428, 706, 1302, 3218}
 
 local function orders()
@@ -80,7 +80,7 @@ local function orders()
   for k, order in ipairs(m.orders) do x[k], y[k] = k - largest, order.elements.diameter.mean / m.orders[largest].elements.diameter.mean end
   local below = {}
   for k, diameter in ipairs(KASSAB) do below[k], pig[k] = k - #KASSAB, diameter / KASSAB[#KASSAB] end
-  return {label = "orders below the highest"}, {label = "diameter by that of the highest", log = true}, {
+  return {label = "order, from the highest down"}, {label = "diameter by that of the highest", log = true}, {
     {x = x, y = y, marks = true, label = "this network"},
     {x = below, y = pig, marks = true, label = "pig coronary (Kassab 1993)"},
   }

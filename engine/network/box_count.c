@@ -1,6 +1,7 @@
 // The box-counting dimension. Results depend on the method more than on the vessels: so there is one protocol
 // (vessel_measures.h), tested on fractals whose dimension is known.
 
+#include "network/leaf.h"
 #include "network/vessels.h"
 
 #include "space/box_set.h"
@@ -30,13 +31,10 @@ typedef struct box_count {
     vn_box_set set, larger;
 } box_count;
 
-static vn_status find_extent(box_count *c) {
+static void find_extent(box_count *c) {
     double high[3];
     vn_points points = vn_network_points(c->network);
     c->extent = vn_points_extent(&points, 0, c->network->x.count, c->low, high);
-    return isfinite(c->extent) ? VN_OK
-                               : vn_fail(VN_INVALID, "measure_boxes: the nodes' bounds are larger than any "
-                                                     "number; use another length unit");
 }
 
 // Within the first 2^finest boxes, rounded to parts: an extent that ended on a face would take one more in
@@ -70,8 +68,8 @@ static void add_lines(box_count *c) {
 static void set_shift(box_count *c, int32_t offset) {
     static const int32_t bases[3] = {3, 5, 7}; // by powers of two, small boxes would not move
     double largest = ldexp(VN_BOX_PARTS, c->def->finest - c->def->coarsest);
-    for (int k = 0; k < c->network->dim; k++) {
-        c->shift[k] = (int64_t)floor(vn_halton(offset, bases[k]) * largest);
+    for (int k = 0; k < 3; k++) {
+        c->shift[k] = k < c->network->dim ? (int64_t)floor(vn_halton(offset, bases[k]) * largest) : 0;
     }
 }
 
@@ -108,7 +106,7 @@ static void fit_line(vn_boxes *out) {
 }
 
 static vn_status count_boxes(box_count *c) {
-    VN_TRY(find_extent(c));
+    find_extent(c);
     c->out->extent = c->extent;
     c->out->sizes = c->def->finest - c->def->coarsest + 1;
     for (int32_t k = 0; k < c->out->sizes; k++) {
@@ -137,7 +135,7 @@ static vn_status check_request(const vn_network *network, const vn_boxes_def *de
     if (network->x.count == 0) {
         return vn_fail(VN_INVALID, "measure_boxes: the network is empty; grow or load it first");
     }
-    return VN_OK;
+    return vn_check_places(network, "measure_boxes");
 }
 
 vn_status vn_network_measure_boxes(const vn_network *network, const vn_boxes_def *def, vn_boxes *out) {

@@ -16,6 +16,9 @@ static inline uint64_t vn_sortable(double value) {
     return bits >> 63 ? ~bits : bits | UINT64_C(1) << 63;
 }
 
+/// Whether no coordinate is so large that its square, or a distance's, is none; @p what begins the message.
+vn_status vn_check_places(const vn_network *network, const char *what);
+
 vn_status vn_statistics_of(vn_statistics *out, const double *values, int32_t count);
 
 /// The convex hull of a 2D network's nodes as a domain; NULL when it has no area.

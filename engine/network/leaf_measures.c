@@ -175,18 +175,11 @@ static vn_status measure_areoles(vn_leaf_measures *m, const vn_faces *faces) {
 // ---- All ----
 
 static vn_status check_request(const vn_network *network, const vn_leaf_def *def) {
-    const double far = 1e150;
     VN_TRY(vn_check_def(&vn_leaf_schema, def));
     if (network->dim != 2 || (def->domain != NULL && vn_domain_dim(def->domain) != 2)) {
         return vn_fail(VN_INVALID, "measure: a leaf is flat; give a network and a domain in 2D");
     }
-    for (int32_t i = 0; i < network->x.count; i++) {
-        if (!(fabs(network->x.data[i]) <= far && fabs(network->y.data[i]) <= far)) {
-            return vn_fail(VN_INVALID, "measure: node %d at (%g, %g) is beyond %g; use another length unit",
-                           i, network->x.data[i], network->y.data[i], far);
-        }
-    }
-    return VN_OK;
+    return vn_check_places(network, "measure");
 }
 
 static vn_status measure_in(vn_leaf_measures *m, const vn_network *network, const vn_domain *area,

@@ -1,4 +1,4 @@
-#include "network/network.h"
+#include "network/leaf.h"
 
 static void measure_node(const vn_network *network, int32_t node, vn_network_measures *m) {
     int32_t first = network->first_child.data[node];
@@ -52,5 +52,18 @@ vn_status vn_network_measure(const vn_network *network, vn_network_measures *out
         out->length += sqrt(vn_distance2(p, q));
     }
     out->joins = network->joins.count;
+    return VN_OK;
+}
+
+vn_status vn_check_places(const vn_network *network, const char *what) {
+    const double far = 1e150;
+    for (int32_t i = 0; i < network->x.count; i++) {
+        double p[3];
+        vn_network_position(network, i, p);
+        if (!(fabs(p[0]) <= far && fabs(p[1]) <= far && fabs(p[2]) <= far)) {
+            return vn_fail(VN_INVALID, "%s: node %d at (%g, %g, %g) is beyond %g; use another length unit",
+                           what, i, p[0], p[1], p[2], far);
+        }
+    }
     return VN_OK;
 }

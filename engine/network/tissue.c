@@ -140,7 +140,7 @@ static vn_status check_request(const vn_network *network, const vn_tissue_def *d
     if (network->x.count == 0) {
         return vn_fail(VN_INVALID, "measure_tissue: the network is empty; grow or load it first");
     }
-    return VN_OK;
+    return vn_check_places(network, "measure_tissue");
 }
 
 vn_status vn_network_measure_tissue(const vn_network *network, const vn_tissue_def *def, vn_tissue *out) {

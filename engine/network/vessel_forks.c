@@ -116,6 +116,7 @@ static vn_status new_bins(forks *f) {
 static void end_bins(vn_vessel_measures *out) {
     for (int32_t k = 0; k < out->bin_count; k++) {
         vn_fork_bin *bin = &out->bins[k];
+        // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): as many as were counted
         vn_spread_end(&bin->between, bin->count);
         vn_spread_end(&bin->thick, bin->count);
         vn_spread_end(&bin->thin, bin->count);

@@ -142,6 +142,7 @@ vn_status vn_network_measure_vessels(const vn_network *network, const vn_vessel_
         return vn_fail(VN_INVALID, "measure_vessels.orders = \"diameter\": the network has no radii; give it "
                                    "some by Murray's law (net:murray{…}), or ask for \"strahler\"");
     }
+    VN_TRY(vn_check_places(network, "measure_vessels"));
     vn_network_murray_get(network, &law);
     vn_vessel_measures made = {.bin_count = def->bins};
     made.exponent = def->exponent > 0 ? def->exponent : law.exponent;

@@ -94,7 +94,8 @@ typedef struct vn_vessel_measures {
 /// until no order's mean diameter changes by more than a hundredth (a hundred times at most), the limit above
 /// an order is the mean of its own mean diameter + deviation and of the next one's mean - deviation (and no
 /// less than the limit below); tips have order 1, and other segments the highest of their daughters' orders,
-/// or the next one where they are thicker than its limit. VN_INVALID for these without radii.
+/// or the next one where they are thicker than its limit. VN_INVALID for these without radii,
+/// and for coordinates beyond 1e150.
 VN_API vn_status vn_network_measure_vessels(const vn_network *network, const vn_vessel_measures_def *def,
                                             vn_vessel_measures *out);
 VN_API void vn_vessel_measures_free(vn_vessel_measures *measures);
@@ -123,7 +124,7 @@ typedef struct vn_boxes {
     double side[VN_MOST_BOX_SIZES]; ///< from the largest
     int64_t count[VN_MOST_BOX_SIZES];
 } vn_boxes;
-/// VN_INVALID for an empty network, and for `finest` out of range.
+/// VN_INVALID for an empty network, for coordinates beyond 1e150, and for `finest` out of range.
 VN_API vn_status vn_network_measure_boxes(const vn_network *network, const vn_boxes_def *def, vn_boxes *out);
 
 typedef enum vn_vessel_part {
@@ -156,8 +157,8 @@ typedef struct vn_tissue {
     int32_t *histogram; ///< points by distance
     int32_t bins;
 } vn_tissue;
-/// VN_INVALID for an empty network, for dimensions that differ, and for a resolution that makes more than 1e8
-/// points or none.
+/// VN_INVALID for an empty network, for coordinates beyond 1e150, for dimensions that differ, and for a
+/// resolution that makes more than 1e8 points or none.
 VN_API vn_status vn_network_measure_tissue(const vn_network *network, const vn_tissue_def *def,
                                            vn_tissue *out);
 VN_API void vn_tissue_free(vn_tissue *tissue);

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "venule/output.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -126,10 +127,23 @@ static vn_status print_text(const vn_network *network, const char *name) {
     return status == VN_OK && vn_network_dim(network) == 2 ? print_leaf(network) : status;
 }
 
+void json_number(const char *before, const char *name, double value) {
+    if (isfinite(value)) {
+        printf("%s\"%s\": %.17g", before, name, value);
+    } else {
+        printf("%s\"%s\": null", before, name); // JSON has no infinity
+    }
+}
+
 void json_numbers(const vn_statistics *s) {
-    printf("\"count\": %d, \"mean\": %.17g, \"deviation\": %.17g, \"min\": %.17g, \"lower\": %.17g, "
-           "\"median\": %.17g, \"upper\": %.17g, \"max\": %.17g",
-           s->count, s->mean, s->deviation, s->min, s->lower, s->median, s->upper, s->max);
+    printf("\"count\": %d", s->count);
+    json_number(", ", "mean", s->mean);
+    json_number(", ", "deviation", s->deviation);
+    json_number(", ", "min", s->min);
+    json_number(", ", "lower", s->lower);
+    json_number(", ", "median", s->median);
+    json_number(", ", "upper", s->upper);
+    json_number(", ", "max", s->max);
 }
 
 void json_statistics(const char *name, const vn_statistics *s) {

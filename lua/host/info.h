@@ -19,5 +19,7 @@ void vessel_info_json(const vessel_info *info);
 /// A field after others, and what is in its braces.
 void json_statistics(const char *name, const vn_statistics *s);
 void json_numbers(const vn_statistics *s);
+/// null where it is not finite.
+void json_number(const char *before, const char *name, double value);
 
 #endif

@@ -80,7 +80,10 @@ void vessel_info_print(const vessel_info *info) {
 // ---- JSON, in the shape of net:measure_vessels() and net:measure_boxes(); nodes count from 0 ----
 
 static void json_spread(const char *name, const vn_spread *spread) {
-    printf(", \"%s\": {\"mean\": %.17g, \"deviation\": %.17g}", name, spread->mean, spread->deviation);
+    printf(", \"%s\": {", name);
+    json_number("", "mean", spread->mean);
+    json_number(", ", "deviation", spread->deviation);
+    printf("}");
 }
 
 static void json_angles_of(const vn_fork_bin *bin) {
@@ -127,7 +130,10 @@ static void json_orders(const vn_vessel_measures *m) {
 }
 
 static void json_order_ratio(const char *name, const vn_order_ratio *ratio) {
-    printf(", \"%s\": {\"ratio\": %.17g, \"r2\": %.17g}", name, ratio->ratio, ratio->r2);
+    printf(", \"%s\": {", name);
+    json_number("", "ratio", ratio->ratio);
+    json_number(", ", "r2", ratio->r2);
+    printf("}");
 }
 
 static void json_boxes(const vn_boxes *boxes) {
@@ -162,7 +168,9 @@ static void json_measures(const vn_vessel_measures *m) {
     printf(", \"vessels\": {\"exponent\": %.17g, \"bifurcations\": %d, \"furcations\": %d, \"segments\": %d, "
            "\"elements\": %d",
            m->exponent, m->bifurcations, m->furcations, m->segments, m->elements);
-    printf(", \"murray\": {\"rms\": %.17g, ", m->murray_rms);
+    printf(", \"murray\": {");
+    json_number("", "rms", m->murray_rms);
+    printf(", ");
     if (m->murray_worst >= 0) {
         printf("\"worst\": %d, ", m->murray_worst);
     }

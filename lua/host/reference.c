@@ -231,6 +231,42 @@ static void write_lua_part(lua_State *L, const char *field, FILE *file) {
     lua_pop(L, 1);
 }
 
+static void write_vessel_classes(FILE *stubs) {
+    fputs(
+        "---@class venule.VesselParts\n---@field count integer\n---@field diameter venule.Spread\n---@field "
+        "length venule.Spread\n\n"
+        "---@class venule.OrderRatio\n---@field ratio number # 0 with fewer than two orders\n---@field r2 "
+        "number\n\n"
+        "---@class venule.ForkBin\n---@field from number # r2/r1\n---@field to number\n---@field count "
+        "integer\n---@field ratio? number # mean; this and the following where count > 0\n---@field between? "
+        "venule.Spread\n---@field thick? venule.Spread\n---@field thin? venule.Spread\n---@field theory? "
+        "{between: number, thick: number, thin: number} # Murray's, at the mean ratio\n\n"
+        "---@class venule.MurrayResidual: venule.Statistics\n---@field rms number\n---@field worst? integer "
+        "# "
+        "the node of the largest\n\n"
+        "---@class venule.VesselMeasures\n---@field exponent number # that `murray` is of\n---@field murray "
+        "venule.MurrayResidual # |r_parent^exponent - Σ r_child^exponent| / r_parent^exponent\n---@field "
+        "fitted venule.Statistics # the exponents that make it 0\n---@field bifurcations integer # nodes "
+        "with "
+        "a parent and two children\n---@field furcations integer # nodes with three children or more\n"
+        "---@field ratio venule.Statistics # r2/r1\n---@field expansion venule.Statistics # (r1² + r2²) / "
+        "r0²\n---@field angles {between: venule.Statistics, thick: venule.Statistics, thin: "
+        "venule.Statistics, bins: venule.ForkBin[]} # degrees\n---@field orders {segments: "
+        "venule.VesselParts, elements: venule.VesselParts}[]\n---@field segments integer\n---@field elements "
+        "integer\n---@field bifurcation_ratio venule.OrderRatio # by how much there are fewer elements an "
+        "order up\n---@field diameter_ratio venule.OrderRatio # and they are thicker\n---@field length_ratio "
+        "venule.OrderRatio # and longer\n---@field tortuosity {segments: venule.Statistics, elements: "
+        "venule.Statistics} # arc by chord\n---@field curvature {segments: venule.Statistics, elements: "
+        "venule.Statistics} # mean square, radians²/length²\n\n"
+        "---@class venule.Boxes\n---@field dimension number\n---@field r2 number # of the line\n---@field "
+        "extent number\n---@field boxes {side: number, count: integer}[] # from the largest\n\n"
+        "---@class venule.Tissue\n---@field resolution number\n---@field points integer\n---@field distance "
+        "venule.Statistics\n---@field furthest number[] # where distance.max is\n---@field mode number\n"
+        "---@field lumen number # share of points inside vessels\n---@field perfused? number # share within "
+        "reach\n---@field bin number # width of a bin\n---@field histogram integer[] # points\n\n",
+        stubs);
+}
+
 static void write_all(writer *w, lua_State *L) {
     fputs(
         "---@meta venule\n-- Generated from the bindings (the target `generate`); not to be edited.\n\n"
@@ -285,39 +321,7 @@ static void write_all(writer *w, lua_State *L) {
         "venule.Statistics # length by diameter\n---@field angle venule.Statistics # degrees, between two "
         "daughters\n\n",
         w->stubs);
-    fputs(
-        "---@class venule.VesselParts\n---@field count integer\n---@field diameter venule.Spread\n---@field "
-        "length venule.Spread\n\n"
-        "---@class venule.OrderRatio\n---@field ratio number # 0 with fewer than two orders\n---@field r2 "
-        "number\n\n"
-        "---@class venule.ForkBin\n---@field from number # r2/r1\n---@field to number\n---@field count "
-        "integer\n---@field ratio? number # mean; this and the following where count > 0\n---@field between? "
-        "venule.Spread\n---@field thick? venule.Spread\n---@field thin? venule.Spread\n---@field theory? "
-        "{between: number, thick: number, thin: number} # Murray's, at the mean ratio\n\n"
-        "---@class venule.MurrayResidual: venule.Statistics\n---@field rms number\n---@field worst? integer "
-        "# "
-        "the node of the largest\n\n"
-        "---@class venule.VesselMeasures\n---@field exponent number # that `murray` is of\n---@field murray "
-        "venule.MurrayResidual # |r_parent^exponent - Σ r_child^exponent| / r_parent^exponent\n---@field "
-        "fitted venule.Statistics # the exponents that make it 0\n---@field bifurcations integer # nodes "
-        "with "
-        "a parent and two children\n---@field furcations integer # nodes with three children or more\n"
-        "---@field ratio venule.Statistics # r2/r1\n---@field expansion venule.Statistics # (r1² + r2²) / "
-        "r0²\n---@field angles {between: venule.Statistics, thick: venule.Statistics, thin: "
-        "venule.Statistics, bins: venule.ForkBin[]} # degrees\n---@field orders {segments: "
-        "venule.VesselParts, elements: venule.VesselParts}[]\n---@field segments integer\n---@field elements "
-        "integer\n---@field bifurcation_ratio venule.OrderRatio # by how much there are fewer elements an "
-        "order up\n---@field diameter_ratio venule.OrderRatio # and they are thicker\n---@field length_ratio "
-        "venule.OrderRatio # and longer\n---@field tortuosity {segments: venule.Statistics, elements: "
-        "venule.Statistics} # arc by chord\n---@field curvature {segments: venule.Statistics, elements: "
-        "venule.Statistics} # mean square, radians²/length²\n\n"
-        "---@class venule.Boxes\n---@field dimension number\n---@field r2 number # of the line\n---@field "
-        "extent number\n---@field boxes {side: number, count: integer}[] # from the largest\n\n"
-        "---@class venule.Tissue\n---@field resolution number\n---@field points integer\n---@field distance "
-        "venule.Statistics\n---@field furthest number[] # where distance.max is\n---@field mode number\n"
-        "---@field lumen number # share of points inside vessels\n---@field perfused? number # share within "
-        "reach\n---@field bin number # width of a bin\n---@field histogram integer[] # points\n\n",
-        w->stubs);
+    write_vessel_classes(w->stubs);
     fputs("# Lua reference\n\nGenerated from the bindings (the target `generate`); not to be edited. Options "
           "marked *required* "
           "must be given; an option without a default may be left out. Indices count from 1, angles are "

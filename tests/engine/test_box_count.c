@@ -268,7 +268,8 @@ static void bad_requests_are_refused(void **state) {
     refused(network, &def, "measure_boxes: the network is empty; grow or load it first");
     put_child(network, put_root(network, 0, 0, 0), 1e308, 0, 0);
     put_child(network, 0, -1e308, 0, 0);
-    refused(network, &def, "measure_boxes: the nodes' bounds are larger than any number");
+    refused(network, &def,
+            "measure_boxes: node 1 at (1e+308, 0, 0) is beyond 1e+150; use another length unit");
     def.finest = 2;
     refused(network, &def, "measure_boxes.finest = 2 must be above coarsest = 2");
     def.finest = 11;

@@ -264,6 +264,10 @@ static void bad_requests_are_refused(void **state) {
     def.reach = 0;
     def.bins = 20000;
     refused(network, &def, "measure_tissue.bins = 20000 must be at most 10000 bins");
+    def.bins = 20;
+    put_child(network, 0, 1, 1e200, 0);
+    refused(network, &def,
+            "measure_tissue: node 1 at (1, 1e+200, 0) is beyond 1e+150; use another length unit");
     vn_network_destroy(network);
     vn_domain_release(disk);
     vn_domain_release(ball);

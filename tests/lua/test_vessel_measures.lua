@@ -87,6 +87,14 @@ function testTissueInEveryKindOfDomain()
   local surface = venule.domain.mesh(mesh)
   lu.assertAlmostEquals(solid:measure_tissue {domain = inside, resolution = 0.05}.points * 0.05 ^ 3, inside:measure(), 0.05)
   lu.assertAlmostEquals(solid:measure_tissue {domain = surface}.points, 40000, 1)
+
+  local mask = venule.domain.volume("../files/volumes/liver.nii.gz", {threshold = 1})
+  local low, high = mask:bounds().min, mask:bounds().max
+  local chord = venule.network {dim = 3}
+  chord:add(chord:root(low[1], low[2], low[3]), high[1], high[2], high[3])
+  local in_mask = chord:measure_tissue {domain = mask, resolution = (high[1] - low[1]) / 50}
+  lu.assertAlmostEquals(in_mask.points * in_mask.resolution ^ 3 / mask:measure(), 1, 0.02)
+  lu.assertTrue(mask:contains(in_mask.furthest[1], in_mask.furthest[2], in_mask.furthest[3]))
 end
 
 function testWhatCannotBeMeasured()
