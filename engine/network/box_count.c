@@ -27,6 +27,7 @@ typedef struct box_count {
     const vn_boxes_def *def;
     vn_boxes *out;
     double low[3], extent;
+    double parts;     // that the extent has
     int64_t shift[3]; // in parts of the smallest boxes
     vn_box_set set, larger;
 } box_count;
@@ -34,17 +35,18 @@ typedef struct box_count {
 static void find_extent(box_count *c) {
     double high[3];
     vn_points points = vn_network_points(c->network);
+    // The extent ends a part before the face of a box: on the face it would take one more in each direction,
+    // and a line of 2^k boxes count as 2^k + 1.
+    c->parts = ldexp(VN_BOX_PARTS, c->def->finest) - 1;
     c->extent = vn_points_extent(&points, 0, c->network->x.count, c->low, high);
 }
 
-// Within the first 2^finest boxes, rounded to parts: an extent that ended on a face would take one more in
-// each direction, and a line of 2^k boxes count as 2^k + 1.
 static void place_of(const box_count *c, int32_t node, int64_t q[3]) {
-    double p[3], parts = ldexp(VN_BOX_PARTS, c->def->finest) - 1;
+    double p[3];
     vn_network_position(c->network, node, p);
     for (int k = 0; k < 3; k++) {
         double share = c->extent > 0 ? (p[k] - c->low[k]) / c->extent : 0;
-        q[k] = (int64_t)floor(share * parts + 0.5) + c->shift[k];
+        q[k] = (int64_t)floor(share * c->parts + 0.5) + c->shift[k];
     }
 }
 

@@ -80,9 +80,12 @@ static int next_axis(const walk *w) {
 
 // All that pass a face at the same place in the same sense do it at once: no box lies between.
 static void step(walk *w, int axis) {
-    walk before = *w;
+    bool passes[3];
     for (int k = 0; k < 3; k++) {
-        if (before.left[k] > 0 && before.sign[k] == before.sign[axis] && is_together(&before, k, axis)) {
+        passes[k] = w->left[k] > 0 && w->sign[k] == w->sign[axis] && is_together(w, k, axis);
+    }
+    for (int k = 0; k < 3; k++) {
+        if (passes[k]) {
             w->box[k] += w->sign[k];
             w->way[k] += VN_BOX_PARTS;
             w->left[k]--;
