@@ -2,6 +2,7 @@
 
 #include "colonize/attractors.h"
 
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "domain/domain.h"
 
@@ -118,7 +119,7 @@ enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
 static vn_status prepare_refusals(refusals *r, vn_attractors *a, const clearing *nodes, double spacing) {
     double nodes_reach = nodes->grid != NULL ? nodes->reach : 0,
            own_reach = spacing > 0 ? beyond(spacing) : 0;
-    *r = (refusals){nodes, a, 0.5 * fmax(nodes_reach, own_reach), own_reach * own_reach};
+    *r = (refusals){nodes, a, 0.8 * fmax(nodes_reach, own_reach), own_reach * own_reach};
     int64_t points = (int64_t)a->x.count + (nodes->grid != NULL ? nodes->network->x.count : 0);
     int32_t slots = a->refusers.count > 0 ? a->refusers.count : FEWEST_SLOTS;
     while (slots < 4 * points && slots < MOST_SLOTS) {
@@ -140,9 +141,9 @@ static int32_t *slot_of(const refusals *r, const double p[3]) {
         double cell = floor(p[k] / r->cell);
         uint64_t bits;
         memcpy(&bits, &cell, sizeof bits);
-        h = (h ^ bits) * 0x9E3779B97F4A7C15u;
+        h = vn_mix(h ^ bits); // small whole numbers differ in their high bits only
     }
-    return &r->a->refusers.data[(h >> 32) & (uint64_t)(r->a->refusers.count - 1)];
+    return &r->a->refusers.data[h & (uint64_t)(r->a->refusers.count - 1)];
 }
 
 // A node's number above 0, or an attractor's below; 0: nobody.
@@ -160,7 +161,9 @@ static bool is_refused_again(const refusals *r, int32_t refuser, const double p[
 static vn_status find_neighbour(vn_attractors *a, double spacing, const double p[3], int32_t *neighbour) {
     *neighbour = -1;
     if (spacing > 0) {
-        VN_TRY(vn_attractors_grid(a, spacing));
+        if (vn_point_grid_count(&a->grid) < a->x.count) {
+            VN_TRY(vn_attractors_grid(a, spacing));
+        }
         vn_points points = vn_attractors_points(a);
         *neighbour = vn_point_grid_any_within(&a->grid, &points, p, beyond(spacing), is_present, a);
     }
@@ -239,6 +242,9 @@ static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v
     VN_TRY(renew_cover(a, def, count, &covered));
     VN_TRY(prepare_clearing(&nodes, def->network, def->clearance));
     VN_TRY(prepare_refusals(&r, a, &nodes, def->spacing));
+    if (def->spacing > 0) {
+        VN_TRY(vn_attractors_grid(a, def->spacing));
+    }
     for (int32_t k = 0; k < count; k++) {
         if (!covered || !vn_cover_holds(&a->cover, v->at[k])) {
             VN_TRY(land_one(&r, def->spacing, v->at[k], accepted));

@@ -14,7 +14,7 @@ static double bits_of(int dim, const double low[3], const double high[3], double
 }
 
 vn_status vn_cover_init(vn_cover *cover, int dim, const double low[3], const double high[3], double radius) {
-    double cell = radius / 6;
+    double cell = radius / (dim == 2 ? 6 : 3);
     while (cell <= 0.4 * radius && !(bits_of(dim, low, high, cell) <= MOST_BITS)) {
         cell *= 1.25;
     }

@@ -1,6 +1,7 @@
 // Searches in space against asking every point, on sets that are random, degenerate and hostile.
 #include "support.h"
 
+#include "space/cover.h"
 #include "space/point_grid.h"
 #include "space/reach_tree.h"
 #include "space/segment_grid.h"
@@ -608,11 +609,71 @@ static void the_curve_takes_any_point(void **state) {
     assert_true(vn_morton(a, 3, min, 1) < vn_morton(b, 3, min, 1));
 }
 
+// ---- Covers ----
+
+static double nearest_of(const cloud *c, const double p[3]) {
+    vn_points points = points_of(c);
+    double best2 = INFINITY;
+    for (int32_t i = 0; i < c->count; i++) {
+        best2 = fmin(best2, vn_points_distance2(&points, i, p));
+    }
+    return sqrt(best2);
+}
+
+// What is covered is nearer than the radius; and most of what is nearer than half of it is covered.
+static void what_a_cover_holds_is_near(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 12; seed++) {
+        vn_rng rng = vn_rng_make(seed);
+        cloud c = {.dim = 2 + (int)(seed % 2)};
+        double low[3] = {-1, 5, -0.25}, high[3] = {1, 6, 0.5}, radius = uniform(&rng, 0.05, 0.4);
+        vn_cover cover = {0};
+        int32_t near = 0, covered = 0;
+        assert_ok(vn_cover_init(&cover, c.dim, low, high, radius));
+        assert_true(cover.cell > 0);
+        for (int i = 0; i < 12; i++) { // some of them outside the box
+            add_point(&c, uniform(&rng, -1.5, 1.5), uniform(&rng, 4.5, 6.5), uniform(&rng, -0.5, 0.8));
+            vn_points points = points_of(&c);
+            double p[3];
+            vn_points_get(&points, i, p);
+            vn_cover_add(&cover, p);
+        }
+        for (int i = 0; i < 20000; i++) {
+            double p[3] = {uniform(&rng, -1.6, 1.6), uniform(&rng, 4.4, 6.6),
+                           c.dim == 3 ? uniform(&rng, -0.5, 0.8) : 0};
+            bool inside = p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1] &&
+                          (c.dim == 2 || (p[2] >= low[2] && p[2] <= high[2]));
+            double distance = nearest_of(&c, p);
+            if (vn_cover_holds(&cover, p)) {
+                assert_true(distance < radius);
+            }
+            near += inside && distance < 0.35 * radius;
+            covered += inside && distance < 0.35 * radius && vn_cover_holds(&cover, p);
+        }
+        assert_true(near == 0 || covered == near);
+        vn_cover_free(&cover);
+    }
+}
+
+static void a_cover_that_would_be_huge_is_none(void **state) {
+    (void)state;
+    vn_cover cover = {0};
+    double low[3] = {-1e9, -1e9, -1e9}, high[3] = {1e9, 1e9, 1e9};
+    assert_ok(vn_cover_init(&cover, 3, low, high, 1));
+    assert_true(cover.cell == 0);
+    high[0] = INFINITY;
+    assert_ok(vn_cover_init(&cover, 3, low, high, 1));
+    assert_true(cover.cell == 0);
+    vn_cover_free(&cover);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         counted_test(a_point_grid_finds_what_asking_everybody_finds),
         counted_test(an_empty_grid_finds_nothing),
         counted_test(far_points_do_not_confuse_a_grid),
+        counted_test(what_a_cover_holds_is_near),
+        counted_test(a_cover_that_would_be_huge_is_none),
         counted_test(a_reach_tree_finds_what_asking_everybody_finds),
         counted_test(a_guarded_reach_tree_finds_what_nobody_keeps_out),
         counted_test(a_tree_of_nobody_answers_nothing),

@@ -520,6 +520,62 @@ static void test_radii_stay_murrays(void **state) {
     }
 }
 
+// ---- Darts ----
+
+// Each dart in turn, against everybody.
+static int32_t throw_slowly(const garden *g, vn_rng rng, const vn_throw_def *def, double (*at)[3],
+                            int32_t count) {
+    vn_rng volley = vn_rng_fork(&rng);
+    int32_t first = count;
+    for (int32_t k = 0; k < def->count; k++) {
+        vn_rng own = {.seed = volley.seed, .stream = vn_hash(volley.seed, volley.stream, (uint64_t)k, 2)};
+        double p[3];
+        assert_ok(vn_domain_dart(g->domain, &own, p));
+        bool sticks = nearest_any(g->net, p) > def->clearance;
+        for (int32_t i = 0; i < count; i++) {
+            sticks = sticks && sqrt(vn_distance2(at[i], p)) > def->spacing;
+        }
+        if (sticks) {
+            memcpy(at[count++], p, sizeof p);
+        }
+    }
+    return count - first;
+}
+
+// Short cuts, as clearances shrink and nodes come: the same darts stick.
+static void test_darts_stick_where_they_should(void **state) {
+    (void)state;
+    static double at[6000][3];
+    for (uint64_t seed = 71; seed < 79; seed++) {
+        garden g = garden_of(2 + (int)(seed % 2), seed);
+        for (int step = 0; step < 16; step++) {
+            vn_throw_def def = vn_throw_def_default();
+            int32_t accepted, count = vn_attractors_count(g.a);
+            def.domain = g.domain;
+            def.count = 300;
+            def.spacing = 0.12 / (1 + 0.1 * step);
+            def.clearance = (step % 5 == 4 ? 0.3 : 0.2) / (1 + 0.1 * step);
+            def.network = g.net;
+            def.rng = &g.rng;
+            for (int32_t i = 0; i < count; i++) {
+                assert_ok(vn_attractors_position(g.a, i, at[i]));
+            }
+            int32_t expected = throw_slowly(&g, g.rng, &def, at, count);
+            assert_ok(vn_throw(g.a, &def, &accepted));
+            assert_int_equal(accepted, expected);
+            for (int32_t i = 0; i < accepted; i++) {
+                double p[3];
+                assert_ok(vn_attractors_position(g.a, count + i, p));
+                assert_memory_equal(p, at[count + i], sizeof p);
+            }
+            influence(&g);
+            assert_ok(vn_extend(g.net, g.f, &g.grow, &accepted, &count));
+            consume(&g);
+        }
+        end_garden(&g);
+    }
+}
+
 // ---- Growth of the tissue ----
 
 // What the step makes of everything scaled by @p sigma, with lengths that stay.
@@ -637,6 +693,7 @@ int main(void) {
         counted_test(test_roots),
         counted_test(test_directions_are_allowed),
         counted_test(test_radii_stay_murrays),
+        counted_test(test_darts_stick_where_they_should),
         counted_test(test_relative_growth_is_growth),
         counted_test(test_bad_input),
         counted_test(test_influence_of_random_vessels),
