@@ -215,8 +215,8 @@ static int network_save(lua_State *L) {
 static void remember_stall(lua_State *L, const vn_network *network, const vn_influence *influence,
                            int32_t added) {
     int32_t left = vn_attractors_count(influence->attractors);
-    if (added > 0 || left == 0) {
-        lua_pushnil(L);
+    if (added > 0 || left == 0 || vn_gaze_is_open(&influence->attractors->gaze)) {
+        lua_pushnil(L); // drains that no vessel perceives are nothing to tell of
     } else if (vn_network_count(network) == 0) {
         lua_pushliteral(L, "the network has no root to grow from: call net:root(x, y)");
     } else if (vn_influence_count(influence) == 0) {

@@ -98,6 +98,64 @@ local venule = {domain = {}, growth = {}, leaf = {}}
 ---@field slenderness venule.Statistics # length by diameter
 ---@field angle venule.Statistics # degrees, between two daughters
 
+---@class venule.VesselParts
+---@field count integer
+---@field diameter venule.Spread
+---@field length venule.Spread
+
+---@class venule.OrderRatio
+---@field ratio number # 0 with fewer than two orders
+---@field r2 number
+
+---@class venule.ForkBin
+---@field from number # r2/r1
+---@field to number
+---@field count integer
+---@field ratio? number # mean; this and the following where count > 0
+---@field between? venule.Spread
+---@field thick? venule.Spread
+---@field thin? venule.Spread
+---@field theory? {between: number, thick: number, thin: number} # Murray's, at the mean ratio
+
+---@class venule.MurrayResidual: venule.Statistics
+---@field rms number
+---@field worst? integer # the node of the largest
+
+---@class venule.VesselMeasures
+---@field exponent number # that `murray` is of
+---@field murray venule.MurrayResidual # |r_parent^exponent - Σ r_child^exponent| / r_parent^exponent
+---@field fitted venule.Statistics # the exponents that make it 0
+---@field bifurcations integer # nodes with a parent and two children
+---@field furcations integer # nodes with three children or more
+---@field ratio venule.Statistics # r2/r1
+---@field expansion venule.Statistics # (r1² + r2²) / r0²
+---@field angles {between: venule.Statistics, thick: venule.Statistics, thin: venule.Statistics, bins: venule.ForkBin[]} # degrees
+---@field orders {segments: venule.VesselParts, elements: venule.VesselParts}[]
+---@field segments integer
+---@field elements integer
+---@field bifurcation_ratio venule.OrderRatio # by how much there are fewer elements an order up
+---@field diameter_ratio venule.OrderRatio # and they are thicker
+---@field length_ratio venule.OrderRatio # and longer
+---@field tortuosity {segments: venule.Statistics, elements: venule.Statistics} # arc by chord
+---@field curvature {segments: venule.Statistics, elements: venule.Statistics} # mean square, radians²/length²
+
+---@class venule.Boxes
+---@field dimension number
+---@field r2 number # of the line
+---@field extent number
+---@field boxes {side: number, count: integer}[] # from the largest
+
+---@class venule.Tissue
+---@field resolution number
+---@field points integer
+---@field distance venule.Statistics
+---@field furthest number[] # where distance.max is
+---@field mode number
+---@field lumen number # share of points inside vessels
+---@field perfused? number # share within reach
+---@field bin number # width of a bin
+---@field histogram integer[] # points
+
 ---@class (exact) venule.network.Options
 ---@field dim? integer # dimensions: 2 or 3 (default 2)
 ---@field max_nodes? integer # a network that would grow beyond it fails; guards against a script that runs away, nodes (default 1e+08)
@@ -1034,6 +1092,38 @@ function Network:orders(kind, options) end
 ---@param options? venule.measure.Options
 ---@return venule.Measures
 function Network:measure(options) end
+
+---@class (exact) venule.measure_vessels.Options
+---@field exponent? number # κ in r_parent^κ = Σ r_child^κ, as murray's; left out: that of the law in force, or 3
+---@field orders? "strahler"|"diameter" # by Strahler: tips 1, one more where two of the highest meet; by diameter: one more where a vessel is too thick for the order of its daughters (after Jiang, Kassab & Fung 1994) (default "strahler")
+---@field bins? integer # of the daughters' ratio r2/r1 from 0 to 1, for angles, bins (default 10)
+
+---What anatomists measure in vessels. By how much Murray's law is missed where three edges or more meet (`murray`), and the exponents that would keep it (`fitted`). At bifurcations, nodes with a parent and two children: the daughters' `ratio` r2/r1, their area by the parent's (`expansion`), `angles` in degrees between the daughters and of the thick and the thin one to the parent's direction, by bins of the ratio with Murray's optimal angles (`theory`). Diameter, length and count by order, of segments (from fork to fork) and of elements (segments of one order in series), and the ratios from order to order, by regression. `tortuosity` is arc by chord, `curvature` the mean squared curvature along (radians²/length²). Lengths are the network's. Joins are nobody's children: they count for Murray's law alone.
+---@param options? venule.measure_vessels.Options
+---@return venule.VesselMeasures
+function Network:measure_vessels(options) end
+
+---@class (exact) venule.measure_boxes.Options
+---@field coarsest? integer # the largest boxes have the longest side of the nodes' bounds by 2 to this power (default 2)
+---@field finest? integer # the smallest boxes likewise; above coarsest, and in 3D at most 10 (default 8)
+---@field offsets? integer # each shifted by a part of the largest box; the least count holds, grids (default 16)
+
+---The box-counting dimension, always by one protocol: boxes of the extent / 2^k, where the extent is the longest side of the nodes' bounds; a box counts when an edge passes it, exactly; of several grids, each shifted by a part of the largest box (Halton's points, bases 3, 5, 7), the least count of each size; the slope of the least-squares line of ln count over ln 1/side. By the default range, in whatever direction they lie, straight lines have 1 to 1.05, filled squares 1.85 to 2.03, Koch's curve (1.262) 1.27 to 1.33 and Sierpinski's triangle (1.585) 1.58 to 1.64: dimensions compare with others by this protocol. Boxes smaller than the mesh of a network see lines only: let `finest` suit it, and look at `boxes`.
+---@param options? venule.measure_boxes.Options
+---@return venule.Boxes
+function Network:measure_boxes(options) end
+
+---@class (exact) venule.measure_tissue.Options
+---@field domain venule.Domain|venule.Growth # the tissue: flat, solid or a surface
+---@field from? "surface"|"centerline" # of vessels; where no radii are known it is the center line (default "surface")
+---@field reach? number # tissue at most this far from a vessel is perfused; left out: not asked, length
+---@field resolution? number # spacing of the points; left out: 40,000 in an area or on a surface, 262,144 in a volume, length
+---@field bins? integer # of the histogram, from 0 to the largest distance, bins (default 20)
+
+---How far the points of a domain are from the nearest vessel: statistics, the `furthest` point, the most frequent distance (`mode`), a `histogram`, the share of points in vessels (`lumen`, 0 away) and within `reach` (`perfused`). Points are on a square or cubic grid; on surfaces at random, evenly by area, with distances straight through space. No point is much farther than `furthest`: from one point to another distances differ by no more than these are apart.
+---@param options venule.measure_tissue.Options
+---@return venule.Tissue
+function Network:measure_tissue(options) end
 
 ---@class (exact) venule.flow.Options
 ---@field solve? any # false: leave flows and pressures as they are, and check them; left out: find them first

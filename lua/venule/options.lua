@@ -18,6 +18,7 @@ end
 
 local function in_words(row)
   local unit = row.unit and row.unit ~= "" and " " .. row.unit or ""
+  if row.above and row.max then return ("above %g%s and at most %g%s"):format(row.above, unit, row.max, unit) end
   if row.above then return ("above %g%s"):format(row.above, unit) end
   if row.min and row.max then return ("from %g to %g%s"):format(row.min, row.max, unit) end
   return row.min and ("at least %g%s"):format(row.min, unit) or ("at most %g%s"):format(row.max, unit)
