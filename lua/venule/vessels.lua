@@ -67,6 +67,7 @@ local branch_rows = joined(kind_rows, bare(tree_rows))
 local stage_rows = joined(
   {
     {"steps", nil, type = "integer", min = 1, max = 1000000, required = true, doc = "how many"},
+    {"domain", nil, type = "userdata", doc = "where its drains fall and vessels grow, in the tissue's coordinates: a surface first, say, and then the inside; left out: the tissue"},
     {"arteries", nil, type = "table", doc = "options that are to hold for arteries alone"},
     {"veins", nil, type = "table", doc = "options that are to hold for veins alone"},
   }, bare(tree_rows), bare(drain_rows))
@@ -123,7 +124,7 @@ local function plan(o, given, size, level)
     local own = o.stages and options.read(name, stage_rows, stage, level) or stage
     local drains = settle(drain_rows, size, given, own)
     if own.darts then drains.density = nil elseif own.density then drains.darts = nil end
-    local one = {steps = own.steps, drains = drains}
+    local one = {steps = own.steps, domain = own.domain, drains = drains}
     for _, kind in ipairs {"arteries", "veins"} do
       local inner = own[kind] and options.read(name .. "." .. kind, bare(tree_rows), own[kind], level) or {}
       one[kind] = settle(tree_rows, size, given, given[kind] or {}, own, inner)
@@ -189,10 +190,15 @@ local function vessels(given)
   return setmetatable(s, Vessels)
 end
 
+-- Today's tissue, or the part of it that the stage is about: under isogonic growth, that keeps its place too.
+function Vessels:place()
+  return self.stages[self.stage].domain or self.tissue
+end
+
 function Vessels:throw(r)
   local unit, tissue = self.tissue.unit, self.tissue
   return self.drains:throw {
-    domain = tissue, count = r.darts, density = r.density and r.density / unit ^ tissue.dim, spacing = r.drain_spacing * unit,
+    domain = self:place(), count = r.darts, density = r.density and r.density / unit ^ tissue.dim, spacing = r.drain_spacing * unit,
     clearance = r.drain_clearance * unit, network = self.arteries, weight = self.options.weight, rng = self.options.rng,
   }
 end
@@ -205,7 +211,7 @@ function Vessels:grow(kind, attractors, other, into)
     within = r.perception_distance * unit, perception = {angle = r.perception_angle, lateral = r.lateral},
   })
   local added = network:extend(influence, {
-    length = r.segment_length * unit, domain = self.tissue, bias = r.bias, bias_mean = r.bias_mean,
+    length = r.segment_length * unit, domain = self:place(), bias = r.bias, bias_mean = r.bias_mean,
     bifurcate = r.bifurcate and r.bifurcation_threshold or nil, avoid = self.options.avoid and other or nil,
   })
   attractors:consume(network, {distance = r.satisfaction * unit, into = into})
