@@ -183,8 +183,10 @@ static vn_status land_one(const refusals *r, double spacing, const double p[3], 
         return VN_OK;
     }
     VN_TRY(find_neighbour(r->a, spacing, p, &refuser));
-    if (refuser >= 0) {
+    if (refuser >= 0 && slot != NULL) {
         *slot = -1 - refuser;
+    }
+    if (refuser >= 0) {
         return VN_OK;
     }
     VN_TRY(vn_attractors_add(r->a, p));
