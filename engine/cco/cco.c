@@ -611,15 +611,20 @@ static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, in
     return vn_darts_throw(&g->darts, &search, &rng, p, &g->report.darts);
 }
 
-static vn_status fail_full(const vn_grower *g, int32_t tries) {
+// All reasons together are all refusals.
+static vn_status fail_full(const vn_grower *g, int32_t draws, bool room) {
     const vn_cco_report *r = &g->report;
+    int64_t refused =
+        r->collapsed + r->short_segments + r->outside + r->crossing + r->crowding + r->asymmetric;
     return vn_fail(
         VN_INFEASIBLE,
-        "cco: no place for terminal %d of %d after %d draws: of the connections refused so far %lld were "
-        "shorter than thick, %lld left the domain, %lld met a vessel, %lld crowded one (ask for fewer "
-        "terminals, less inflow or a larger domain)",
-        g->terminals + 1, g->wanted, tries, (long long)r->short_segments, (long long)r->outside,
-        (long long)r->crossing, (long long)r->crowding);
+        "cco: no place for terminal %d of %d after %d draws%s: of %lld connections refused so far %lld had "
+        "their bifurcation in an end, %lld were shorter than thick, %lld left the domain, %lld met a vessel, "
+        "%lld crowded one, %lld forked too unevenly (ask for fewer terminals, less inflow or a larger "
+        "domain)",
+        g->terminals + 1, g->wanted, draws, room ? "" : ", the last of which found no room between vessels",
+        (long long)refused, (long long)r->collapsed, (long long)r->short_segments, (long long)r->outside,
+        (long long)r->crossing, (long long)r->crowding, (long long)r->asymmetric);
 }
 
 // A small tree that stands in its own way is not worth keeping.
@@ -641,7 +646,7 @@ static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
         bool done;
         vn_status found = draw_terminal(cco, g, tree, i, p);
         if (found == VN_INFEASIBLE) {
-            break;
+            return fail_full(g, i + 1, false);
         }
         VN_TRY(found);
         VN_TRY(flow_at(g, p, &flow));
@@ -653,14 +658,29 @@ static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
         g->report.redrawn++;
         VN_TRY(vn_poll());
     }
-    return fail_full(g, cco->def.redraws + 1);
+    return fail_full(g, cco->def.redraws + 1, true);
+}
+
+// Terminals of a tree that has found its way about.
+enum { SETTLED = 200 };
+
+// Its first vessels take many attempts where a domain is thin or bent; from then on, hardly one terminal in
+// two is drawn anew. But where these vessels shut one another in, several are for each, the whole tree comes
+// to lie in a part of the domain, and that takes ten times as long: of 12 trees in the shell of a liver, 3.
+static bool is_stuck(const vn_grower *g) {
+    enum { LEEWAY = 200, OFTEN = 1 };
+    int64_t redrawn = g->report.redrawn - g->settled;
+    return g->terminals > SETTLED && redrawn > LEEWAY + OFTEN * (int64_t)(g->terminals - SETTLED);
 }
 
 static vn_status add_random(vn_cco *cco, vn_grower *g, int32_t tree) {
     enum { MOST_BEGINNINGS = 8 };
     vn_status status = try_random(cco, g, tree);
-    bool early = g->first_born == 2 && g->stage_start == 0 && g->terminals < g->wanted / 4;
-    if (status != VN_INFEASIBLE || !early || g->report.begun_anew == MOST_BEGINNINGS) {
+    bool fresh = g->first_born == 2 && g->stage_start == 0 && g->report.begun_anew < MOST_BEGINNINGS;
+    g->settled = g->terminals <= SETTLED ? g->report.redrawn : g->settled;
+    bool full = status == VN_INFEASIBLE && g->terminals < g->wanted / 4;
+    bool stuck = status == VN_OK && g->terminals < g->wanted / 2 && is_stuck(g);
+    if (!fresh || !(full || stuck)) {
         return status;
     }
     return begin_anew(cco, g, tree);

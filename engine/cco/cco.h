@@ -60,6 +60,7 @@ typedef struct vn_grower {
     vn_darts darts;
     int32_t stage_start; ///< terminals when the stage began
     int32_t draws;       ///< random terminals so far, those drawn anew included
+    int64_t settled;     ///< how many were drawn anew until the tree had found its way about
     VN_ARRAY(vn_near) nearest;
     vn_adjoints adjoints;
     VN_ARRAY(vn_candidate) candidates;
@@ -127,6 +128,7 @@ bool vn_places_visit(const vn_grower *g, const double a[3], const double b[3], d
 
 typedef enum vn_verdict {
     VN_ALLOWED,
+    VN_COLLAPSED,
     VN_SHORT,
     VN_OUTSIDE,
     VN_CROSSING,

@@ -59,11 +59,19 @@ static void refine(const vn_cco *cco, const vn_grower *g, vn_candidate *c) {
     c->refined = true;
 }
 
+static void count_refusal(vn_grower *g, vn_verdict verdict) {
+    int64_t *const counts[] = {
+        [VN_COLLAPSED] = &g->report.collapsed, [VN_SHORT] = &g->report.short_segments,
+        [VN_OUTSIDE] = &g->report.outside,     [VN_CROSSING] = &g->report.crossing,
+        [VN_CROWDING] = &g->report.crowding,   [VN_ASYMMETRIC] = &g->report.asymmetric};
+    ++*counts[verdict];
+}
+
 static vn_status consider(vn_cco *cco, vn_grower *g, int32_t node, const double terminal[3], double flow) {
     vn_candidate c = {.node = node};
     g->report.tried++;
     if (!make_triangle(g, node, terminal, flow, &c.triangle) || !find_roughly(cco, g, &c)) {
-        g->report.collapsed++;
+        count_refusal(g, VN_COLLAPSED);
         return VN_OK;
     }
     return vn_array_push(&g->candidates, c);
@@ -101,15 +109,6 @@ static void make_plan(const vn_cco *cco, const vn_grower *g, const vn_candidate 
 static bool is_uneven(const vn_grower *g, const vn_plan *plan) {
     double thin = fmin(plan->radius[1], plan->radius[2]), thick = fmax(plan->radius[1], plan->radius[2]);
     return thin < g->symmetry * thick;
-}
-
-static void count_refusal(vn_grower *g, vn_verdict verdict) {
-    int64_t *const counts[] = {[VN_SHORT] = &g->report.short_segments,
-                               [VN_OUTSIDE] = &g->report.outside,
-                               [VN_CROSSING] = &g->report.crossing,
-                               [VN_CROWDING] = &g->report.crowding,
-                               [VN_ASYMMETRIC] = &g->report.asymmetric};
-    ++*counts[verdict];
 }
 
 // Lengths alone tell of most candidates that they are too short, before anybody looks around.
@@ -193,12 +192,11 @@ static vn_status grow_fork(const vn_cco *cco, vn_grower *g, const vn_plan *plan,
     return tell_darts(g, cco->def.placement == VN_PLACE_TERMINALS, nodes, 3, moved);
 }
 
-static vn_status connect_first(vn_cco *cco, vn_grower *g, int32_t root, const double terminal[3], double flow,
-                               bool *done) {
-    vn_plan plan = {.node = -1, .upper = root};
+static vn_status connect_first(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
+    vn_plan plan = {.node = -1, .upper = 0};
     vn_verdict verdict;
     memcpy(plan.terminal, terminal, sizeof plan.terminal);
-    double length = sqrt(vn_distance2(terminal, vn_vessel_of(g, root)->p));
+    double length = sqrt(vn_distance2(terminal, vn_vessel_of(g, 0)->p));
     plan.flow[2] = flow;
     plan.radius[2] = inflate_after(cco, g) * sqrt(sqrt(g->tree.factor * flow * length));
     VN_TRY(vn_rules_judge(cco, g, &plan, &verdict));
@@ -237,7 +235,7 @@ static void sort_candidates(const vn_cco *cco, vn_grower *g) {
 static vn_status try_candidate(vn_cco *cco, vn_grower *g, vn_candidate *c, const double terminal[3],
                                double flow, bool *done) {
     vn_plan plan;
-    vn_verdict verdict = VN_SHORT;
+    vn_verdict verdict = VN_COLLAPSED;
     refine(cco, g, c); // what is short at the rough point need not be at the fine one
     if (c->effect.volume < INFINITY) {
         make_plan(cco, g, c, terminal, &plan);
@@ -288,7 +286,7 @@ vn_status vn_connect(vn_cco *cco, vn_grower *g, const double terminal[3], double
     VN_TRY(vn_places_update(cco, g));
     VN_TRY(vn_adjoints_begin(&g->adjoints));
     if (g->tree.vessels.count == 1) {
-        return connect_first(cco, g, 0, terminal, flow, done);
+        return connect_first(cco, g, terminal, flow, done);
     }
     return connect_near(cco, g, terminal, flow, done);
 }

@@ -72,6 +72,12 @@ void vn_domain_closest(const vn_domain *domain, const double p[3], double q[3]) 
     domain->kind->closest(domain, p, q);
 }
 
+bool vn_domain_is_near(const vn_domain *domain, const double p[3], double reach) {
+    double q[3];
+    return domain->kind->is_near != NULL ? domain->kind->is_near(domain, p, reach)
+                                         : domain->kind->closest(domain, p, q) <= reach;
+}
+
 double vn_domain_value(const vn_domain *domain, const double p[3]) {
     if (domain->kind->value != NULL) {
         return domain->kind->value(domain, p);

@@ -35,6 +35,9 @@ typedef struct vn_domain_kind {
     bool (*contains)(const vn_domain *domain, const double p[3]);
     /// The nearest border point q; returns its distance, 0 or more (in or out is contains()'s to say).
     double (*closest)(const vn_domain *domain, const double p[3], double q[3]);
+    /// Whether the border comes within @p reach of @p p, where that is found sooner than how near it comes;
+    /// NULL: it is not.
+    bool (*is_near)(const vn_domain *domain, const double p[3], double reach);
     /// Whether ends that are inside see each other; NULL: march along by the distance to the border.
     bool (*sees)(const vn_domain *domain, const double a[3], const double b[3]);
     /// NULL where there are no flat outlines.
@@ -83,6 +86,9 @@ int64_t vn_domain_changes(const vn_domain *domain);
 /// The share of its bounds that a domain fills, by Halton's points, times their size: nothing else is exact
 /// for every combination. Off by some 1e-4 of the bounds.
 double vn_domain_measure_by_points(const vn_domain *domain);
+
+/// Whether the border comes within @p reach of @p p.
+bool vn_domain_is_near(const vn_domain *domain, const double p[3], double reach);
 
 /// Bring @p p onto the domain where that is a surface; elsewhere, and where @p p is beyond the border,
 /// nothing happens. Whether it is where it has to be.

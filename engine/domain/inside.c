@@ -76,6 +76,20 @@ static double inside_closest(const vn_domain *domain, const double p[3], double 
     return sqrt(nearest_from(s, s->cells.near.data[cell_at(s, p)], p, q));
 }
 
+static bool ends_the_search(int32_t triangle, void *payload) {
+    (void)triangle, (void)payload;
+    return false;
+}
+
+// Mostly the triangle near the cell's middle is near enough, or none is.
+static bool inside_is_near(const vn_domain *domain, const double p[3], double reach) {
+    const inside *s = inside_of(domain);
+    const vn_triangle *near = &s->tree.triangles.data[s->cells.near.data[cell_at(s, p)]];
+    double q[3], reach2 = reach * reach;
+    return vn_triangle_closest(near, p, q) <= reach2 ||
+           !vn_triangle_tree_around(&s->tree, p, reach2, ends_the_search, NULL);
+}
+
 /// The ends of a line.
 typedef struct sight {
     const double *a, *b;
@@ -122,6 +136,7 @@ static const vn_domain_kind inside_kind = {.name = "mesh",
                                            .destroy = inside_destroy,
                                            .contains = inside_contains,
                                            .closest = inside_closest,
+                                           .is_near = inside_is_near,
                                            .sees = inside_sees,
                                            .dart = inside_dart};
 

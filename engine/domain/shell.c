@@ -32,8 +32,7 @@ static void shell_destroy(vn_domain *domain) {
 
 static bool shell_contains(const vn_domain *domain, const double p[3]) {
     const shell *s = shell_of(domain);
-    double q[3];
-    return vn_domain_contains(s->whole, p) && s->whole->kind->closest(s->whole, p, q) <= s->thickness;
+    return vn_domain_contains(s->whole, p) && vn_domain_is_near(s->whole, p, s->thickness);
 }
 
 // Outwards it is the whole's border. Beyond the shell's inner border, that is nearest on the way to it; in
@@ -55,9 +54,8 @@ static double shell_closest(const vn_domain *domain, const double p[3], double q
 static vn_status shell_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     const shell *s = shell_of(domain);
     for (int tries = 0; tries < 1000000; tries++) {
-        double q[3];
         VN_TRY(vn_domain_dart(s->whole, rng, p));
-        if (s->whole->kind->closest(s->whole, p, q) <= s->thickness) {
+        if (vn_domain_is_near(s->whole, p, s->thickness)) {
             return VN_OK;
         }
     }

@@ -432,7 +432,7 @@ static int cco_network(lua_State *L) {
 static int cco_report(lua_State *L) {
     const organ *o = vnl_check(L, 1, &vnl_cco_class);
     vn_cco_report report = vn_cco_report_of(o->cco, check_tree(L, o));
-    lua_createtable(L, 0, 12);
+    lua_createtable(L, 0, 14);
     vnl_set_integer(L, "terminals", report.terminals);
     vnl_set_integer(L, "wanted", report.wanted);
     vnl_set_number(L, "volume", report.volume);
@@ -440,6 +440,7 @@ static int cco_report(lua_State *L) {
     vnl_set_integer(L, "darts", report.darts);
     vnl_set_integer(L, "redrawn", report.redrawn);
     vnl_set_integer(L, "tried", report.tried);
+    vnl_set_integer(L, "begun_anew", report.begun_anew);
     vnl_set_integer(L, "collapsed", report.collapsed);
     vnl_set_integer(L, "short_segments", report.short_segments);
     vnl_set_integer(L, "outside", report.outside);

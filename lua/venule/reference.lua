@@ -139,6 +139,7 @@ stubs[#stubs + 1] = [[
 ---@field volume number # Σ π r² ℓ
 ---@field inflow number
 ---@field darts integer # tries for terminals
+---@field begun_anew integer # times that a small tree stood in its own way
 ---@field redrawn integer # terminals that could not be connected
 ---@field tried integer # candidates whose volume was computed
 ---@field collapsed integer # whose bifurcation point ran into an end

@@ -303,6 +303,44 @@ static void seeds(void **state) {
 }
 
 // The points differ a little, so trees take different ways: on average they are alike.
+// Node 1 is the first terminal, and from there on every other node is one.
+static int32_t fewest_in_an_octant(const vn_network *n) {
+    int32_t octants[8] = {0}, least = INT32_MAX;
+    for (int32_t i = 1; i < n->x.count; i += 2) {
+        octants[(n->x.data[i] > 0) + 2 * (n->y.data[i] > 0) + 4 * (n->z.data[i] > 0)]++;
+    }
+    for (int i = 0; i < 8; i++) {
+        least = octants[i] < least ? octants[i] : least;
+    }
+    return least;
+}
+
+// The first vessels of such trees may shut themselves into a part of the shell: with these seeds, one octant
+// had no terminal, and one had 47, before they began anew.
+static void all_of_a_thin_shell_is_fed(void **state) {
+    (void)state;
+    vn_domain *ball = ball_of(0, 0, 0, 60), *shell;
+    vn_shell_def def = {.domain = ball, .thickness = 5};
+    static const int64_t seeds[] = {1, 4, 11};
+    assert_ok(vn_domain_shell(&shell, &def));
+    for (int i = 0; i < 3; i++) {
+        vn_cco *cco = organ_of(shell, 1000, seeds[i]);
+        vn_cco_tree_def one = vn_cco_tree_def_default();
+        one.root[1] = 60;
+        one.inflow = 2000;
+        add_tree(cco, &one);
+        grow_all(cco);
+        vn_network *n = network_at(cco, 0);
+        int32_t least = fewest_in_an_octant(n);
+        print_message("seed %lld: %d terminals in the poorest octant\n", (long long)seeds[i], least);
+        assert_true(least > 90);
+        vn_network_destroy(n);
+        vn_cco_destroy(cco);
+    }
+    vn_domain_release(shell);
+    vn_domain_release(ball);
+}
+
 static void points_by_kamiya(void **state) {
     (void)state;
     vn_domain *disk = disk_of_measure(20000);
@@ -333,6 +371,7 @@ int main(void) {
         counted_test(grown_on),
         counted_test(grown_on_from_an_image),
         counted_test(seeds),
+        counted_test(all_of_a_thin_shell_is_fed),
         counted_test(points_by_kamiya),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

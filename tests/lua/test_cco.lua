@@ -332,6 +332,10 @@ function testAnOrganThatIsFull()
   local ok, why = tree:run()
   lu.assertFalse(ok)
   lu.assertStrMatches(why, "cco: no place for terminal %d+ of 500 after 201 draws: .* larger domain%)")
+  local refused, sum = tonumber(why:match "of (%d+) connections"), 0
+  for count in why:match ": of %d+ connections refused so far (.*)":gmatch "%d+" do sum = sum + tonumber(count) end
+  lu.assertTrue(refused > 0)
+  lu.assertEquals(sum, refused)
   local has = tree.report.terminals
   lu.assertStrContains(why, ("terminal %d of 500"):format(has + 1))
   lu.assertTrue(has < 500 and not tree.done)
