@@ -11,7 +11,7 @@ local plot_rows = {
   {"x", nil, type = "table", doc = "the axis to the right: {label=, log=, min=, max=}"},
   {"y", nil, type = "table", doc = "the axis upwards: {label=, log=, min=, max=}"},
   {"series", nil, type = "table", required = true,
-    doc = "a list of what is drawn: {x=, y=, deviation=, band=, label=, color=, marks=, line=}"},
+    doc = "a list of what is drawn: {x=, y=, deviation=, below=, band=, label=, color=, marks=, line=}"},
   {"background", "#ffffff", type = "string", doc = "a colour, or \"none\""},
   {"text_size", 13, min = 4, max = 200, unit = "pixels", doc = "of the numbers at the axes; labels are as large"},
 }
@@ -27,6 +27,7 @@ local series_rows = {
   {"x", nil, type = "any", required = true, doc = "a list of numbers; a point that has one that is not finite is left out, and breaks the line"},
   {"y", nil, type = "any", required = true, doc = "a list of as many numbers"},
   {"deviation", nil, type = "any", doc = "a list of as many, or one number: y is drawn with so much above and below it"},
+  {"below", nil, type = "any", doc = "the deviations below, where these are not those above"},
   {"band", false, type = "boolean", doc = "deviations as a band instead of bars"},
   {"label", nil, type = "string", doc = "what it is, in the legend"},
   {"color", nil, type = "string", doc = "left out: one that the others have not"},
@@ -95,8 +96,11 @@ local function read_series(name, given, axes, index, level)
   check_list(name .. ".x", s.x, level + 1)
   check_list(name .. ".y", s.y, level + 1)
   check_as_many(name, "y", s.y, #s.x, level + 1)
-  s.deviation = read_deviation(name .. ".deviation", s.deviation, #s.x, level + 1)
-  if s.deviation then check_as_many(name, "deviation", s.deviation, #s.x, level + 1) end
+  if s.below and not s.deviation then error(name .. ".below needs deviation, those above", level + 1) end
+  for _, key in ipairs {"deviation", "below"} do
+    s[key] = read_deviation(name .. "." .. key, s[key], #s.x, level + 1)
+    if s[key] then check_as_many(name, key, s[key], #s.x, level + 1) end
+  end
   check_log(name .. ".x", axes.x, s.x, level + 1)
   check_log(name .. ".y", axes.y, s.y, level + 1)
   s.color = s.color or PALETTE[(index - 1) % #PALETTE + 1]
@@ -140,8 +144,9 @@ local function runs_of(s, p)
     local x, y, d = s.x[i], s.y[i], s.deviation and s.deviation[i]
     if is_finite(x) and is_finite(y) then
       local point = {x = on(p.x, x), y = on(p.y, y)}
-      if d and is_finite(d) and d > 0 then
-        local low = y - d
+      local below = s.below and s.below[i] or d
+      if d and is_finite(d) and is_finite(below) and d + below > 0 then
+        local low = y - below
         point.low, point.high = (not p.y.log or low > 0) and on(p.y, low) or -math.huge, on(p.y, y + d)
       end
       if not run then

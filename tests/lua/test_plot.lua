@@ -190,6 +190,11 @@ function testDeviationsAreBarsOrABand()
   local _, bars = drawn_in(venule.plot {series = {one(x, y, {deviation = {1, 0, NAN, 0.5}})}}, RED)
   lu.assertEquals(#plain, 1)
   lu.assertEquals(#bars, 1 + 2 * 3) -- 0 and NaN have none
+  local function drawn(below)
+    return saved(venule.plot {y = {min = 0, max = 9}, series = {one(x, y, {deviation = 1, below = below})}}, "svg")
+  end
+  lu.assertEquals(drawn(1), drawn(nil))
+  lu.assertNotEquals(drawn(0.25), drawn(nil))
   local band = saved(venule.plot {series = {one(x, y, {deviation = 1, band = true})}}, "svg")
   local _, areas = band:gsub("<path fill%-rule", "")
   lu.assertEquals(areas, 1)
@@ -264,13 +269,15 @@ end
 
 function testWrongSeries()
   fails(function() venule.plot {} end,
-    "plot: `series` is missing: a list of what is drawn: {x=, y=, deviation=, band=, label=, color=, marks=, line=}")
+    "plot: `series` is missing: a list of what is drawn: {x=, y=, deviation=, below=, band=, label=, color=, marks=, line=}")
   fails(function() venule.plot {series = {{x = {1, 2}, y = {1}}}} end, "plot.series[1]: x has 2 numbers and y 1; give as many")
   fails(function() venule.plot {series = {{x = {1, 2}, y = {1, 2}, deviation = {1}}}} end,
     "plot.series[1]: x has 2 numbers and deviation 1; give as many")
   fails(function() venule.plot {series = {{x = {1, "2"}, y = {1, 2}}}} end, "plot.series[1].x[2]: a number expected, got string")
   fails(function() venule.plot {series = {{x = 1, y = 2}}} end, "plot.series[1].x: a list of numbers expected, got number")
   fails(function() venule.plot {series = {{x = {1}, y = {2}, deviation = -1}}} end, "plot.series[1].deviation[1] = -1 must be at least 0")
+  fails(function() venule.plot {series = {{x = {1}, y = {2}, deviation = 1, below = {-2}}}} end, "plot.series[1].below[1] = -2 must be at least 0")
+  fails(function() venule.plot {series = {{x = {1}, y = {2}, below = 1}}} end, "plot.series[1].below needs deviation, those above")
   fails(function() venule.plot {series = {{x = {1}, y = {1e200}}}} end, "plot.series[1].y[1] = 1e+200 is beyond 1e150: use another unit")
   fails(function() venule.plot {series = {{x = {1}, y = {1}, colour = "red"}}} end,
     'plot.series[1]: unknown field "colour", did you mean "color"?')
