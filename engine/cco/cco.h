@@ -92,6 +92,11 @@ static inline vn_vessel *vn_vessel_of(const vn_grower *g, int32_t node) {
     return &g->tree.vessels.data[node];
 }
 
+/// A cap as it is kept: rounded to a float, never up.
+static inline float vn_cap_below(double cap) {
+    return (float)(cap * (1 - 1e-7));
+}
+
 /// Tree number @p tree of those that grow.
 vn_grower *vn_cco_tree_at(const vn_cco *cco, int32_t tree);
 
@@ -148,6 +153,14 @@ typedef struct vn_plan {
     vn_branch branch; ///< that hangs from `upper` then
     double caps[3];   ///< found by vn_rules_judge()
 } vn_plan;
+
+/// Whether segment @p i of the plan is the rest of one that was there before: it may be short.
+static inline bool vn_plan_is_given(const vn_grower *g, const vn_plan *plan, int i) {
+    return i == 1 && plan->node < g->given;
+}
+static inline bool vn_is_short(double radius, double length) {
+    return radius > length / 2;
+}
 
 /// Whether the plan keeps all rules. Room that other vessels hold but do not need is taken from them.
 vn_status vn_rules_judge(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict *verdict);

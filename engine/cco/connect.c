@@ -117,8 +117,7 @@ static bool is_short(const vn_grower *g, const vn_plan *plan) {
     double lengths[3] = {sqrt(vn_distance2(start, plan->x)), sqrt(vn_distance2(plan->x, distal)),
                          sqrt(vn_distance2(plan->x, plan->terminal))};
     for (int i = 0; i < 3; i++) {
-        bool given = i == 1 && plan->node < g->given;
-        if (!given && 2 * plan->radius[i] > lengths[i]) {
+        if (!vn_plan_is_given(g, plan, i) && vn_is_short(plan->radius[i], lengths[i])) {
             return true;
         }
     }
@@ -132,7 +131,7 @@ static vn_status judge_once(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict
 
 static vn_status insert_all(vn_grower *g, const int32_t *nodes, const double *caps, int count) {
     for (int i = 0; i < count; i++) {
-        vn_vessel_of(g, nodes[i])->cap = (float)(caps[i] * (1 - 1e-7));
+        vn_vessel_of(g, nodes[i])->cap = vn_cap_below(caps[i]);
         VN_TRY(vn_places_insert(g, nodes[i]));
     }
     for (int i = count - 1; i >= 0; i--) {

@@ -33,7 +33,7 @@ void vn_places_remove(vn_grower *g, int32_t node) {
 vn_status vn_places_set_cap(vn_grower *g, int32_t node, double cap) {
     vn_vessel *v = vn_vessel_of(g, node);
     bool was_thick = is_thick(g, node);
-    v->cap = (float)(cap * (1 - 1e-7));
+    v->cap = vn_cap_below(cap);
     g->thickest = fmax(g->thickest, v->cap);
     if (was_thick && !is_thick(g, node)) {
         vn_tube_grid_remove(&g->thick_grid, node, upper_end(g, node), v->p);

@@ -148,10 +148,10 @@ static bool is_inside(tube *t, bool stem) {
 // All rules at once for a tube of length @p length; `room` is what it may be capped at. Those segments that
 // were there before may be short and lie where they do.
 static vn_verdict judge_tube(tube *t, double length, bool stem, bool given) {
-    t->room = given ? RESERVE * t->radius : fmin(RESERVE * t->radius, length / 2);
-    if (t->room < t->radius || !(length > 0)) {
+    if ((!given && vn_is_short(t->radius, length)) || !(length > 0)) {
         return VN_SHORT;
     }
+    t->room = given ? RESERVE * t->radius : fmin(RESERVE * t->radius, length / 2);
     if (!given && !is_inside(t, stem)) {
         return VN_OUTSIDE;
     }
@@ -184,14 +184,10 @@ static void lay_out(vn_cco *cco, vn_grower *g, const vn_plan *plan, plan_tubes *
     }
 }
 
-static bool is_given(const vn_grower *g, const vn_plan *plan, int i) {
-    return i == 1 && plan->node < g->given;
-}
-
 static vn_status judge_plan(vn_grower *g, vn_plan *plan, plan_tubes *p, vn_verdict *verdict) {
     for (int i = plan->node < 0 ? 2 : 0; i < 3; i++) {
         bool stem = i != 1 && is_root(g, plan->upper) && (i == 0 || plan->node < 0);
-        *verdict = judge_tube(&p->tubes[i], p->length[i], stem, is_given(g, plan, i));
+        *verdict = judge_tube(&p->tubes[i], p->length[i], stem, vn_plan_is_given(g, plan, i));
         VN_TRY(p->tubes[i].status);
         if (*verdict != VN_ALLOWED) {
             return VN_OK;
