@@ -46,7 +46,8 @@ typedef struct volley {
 } volley;
 
 static vn_rng dart_rng(const volley *v, int64_t dart) {
-    return (vn_rng){.seed = v->rng.seed, .stream = vn_hash(v->rng.seed, v->rng.stream, (uint64_t)dart, 2)};
+    return (vn_rng){.seed = v->rng.seed,
+                    .stream = vn_hash_here(v->rng.seed, v->rng.stream, (uint64_t)dart, 2)};
 }
 
 static void fly(int64_t begin, int64_t end, void *payload) {
@@ -111,7 +112,7 @@ static bool is_clear(const clearing *c, const double p[3], int32_t *refuser) {
 typedef struct refusals {
     const clearing *nodes;
     vn_attractors *a;
-    double cell, spacing2;
+    double cell, spacing, spacing2;
 } refusals;
 
 enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
@@ -119,7 +120,7 @@ enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
 static vn_status prepare_refusals(refusals *r, vn_attractors *a, const clearing *nodes, double spacing) {
     double nodes_reach = nodes->grid != NULL ? nodes->reach : 0,
            own_reach = spacing > 0 ? beyond(spacing) : 0;
-    *r = (refusals){nodes, a, 0.8 * fmax(nodes_reach, own_reach), own_reach * own_reach};
+    *r = (refusals){nodes, a, 0.8 * fmax(nodes_reach, own_reach), own_reach, own_reach * own_reach};
     int64_t points = (int64_t)a->x.count + (nodes->grid != NULL ? nodes->network->x.count : 0);
     int32_t slots = a->refusers.count > 0 ? a->refusers.count : FEWEST_SLOTS;
     while (slots < 4 * points && slots < MOST_SLOTS) {
@@ -158,19 +159,25 @@ static bool is_refused_again(const refusals *r, int32_t refuser, const double p[
            !vn_is_gone(r->a, i);
 }
 
-static vn_status find_neighbour(vn_attractors *a, double spacing, const double p[3], int32_t *neighbour) {
+// Where vessels look through the same grid, from farther off, its cells are for them.
+static double cell_for(const vn_attractors *a, double spacing) {
+    return fmax(spacing, vn_attractors_reach(a));
+}
+
+static vn_status find_neighbour(const refusals *r, const double p[3], int32_t *neighbour) {
+    vn_attractors *a = r->a;
     *neighbour = -1;
-    if (spacing > 0) {
+    if (r->spacing2 > 0) {
         if (vn_point_grid_count(&a->grid) < a->x.count) {
-            VN_TRY(vn_attractors_grid(a, spacing));
+            VN_TRY(vn_attractors_grid(a, cell_for(a, r->spacing)));
         }
         vn_points points = vn_attractors_points(a);
-        *neighbour = vn_point_grid_any_within(&a->grid, &points, p, beyond(spacing), is_present, a);
+        *neighbour = vn_point_grid_any_within(&a->grid, &points, p, r->spacing, is_present, a);
     }
     return VN_OK;
 }
 
-static vn_status land_one(const refusals *r, double spacing, const double p[3], int32_t *accepted) {
+static vn_status land_one(const refusals *r, const double p[3], int32_t *accepted) {
     int32_t refuser;
     int32_t *slot = r->cell > 0 ? slot_of(r, p) : NULL;
     if (slot != NULL && is_refused_again(r, *slot, p)) {
@@ -182,7 +189,7 @@ static vn_status land_one(const refusals *r, double spacing, const double p[3], 
         }
         return VN_OK;
     }
-    VN_TRY(find_neighbour(r->a, spacing, p, &refuser));
+    VN_TRY(find_neighbour(r, p, &refuser));
     if (refuser >= 0 && slot != NULL) {
         *slot = -1 - refuser;
     }
@@ -245,11 +252,11 @@ static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v
     VN_TRY(prepare_clearing(&nodes, def->network, def->clearance));
     VN_TRY(prepare_refusals(&r, a, &nodes, def->spacing));
     if (def->spacing > 0) {
-        VN_TRY(vn_attractors_grid(a, def->spacing));
+        VN_TRY(vn_attractors_grid(a, cell_for(a, def->spacing)));
     }
     for (int32_t k = 0; k < count; k++) {
         if (!covered || !vn_cover_holds(&a->cover, v->at[k])) {
-            VN_TRY(land_one(&r, def->spacing, v->at[k], accepted));
+            VN_TRY(land_one(&r, v->at[k], accepted));
         }
     }
     return vn_poll();
