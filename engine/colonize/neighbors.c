@@ -237,8 +237,8 @@ static void set_lune(vn_lune *lune, const double s[3], const double v[3]) {
         lune->normal[k] = 0;
         lune->s[k] = s[k];
         lune->v[k] = v[k];
-        lune->low[k] = fmax(s[k], v[k]) - d;
-        lune->high[k] = fmin(s[k], v[k]) + d;
+        lune->low[k] = (s[k] > v[k] ? s[k] : v[k]) - d;
+        lune->high[k] = (s[k] < v[k] ? s[k] : v[k]) + d;
     }
 }
 
@@ -268,8 +268,7 @@ static void narrow_lune(vn_lune *lune, const double p[3]) {
 // Some node in the lune, or -1.
 static int32_t find_in_lune(const vn_network *network, const vn_lune *lune) {
     lune_search search = {network, -1};
-    vn_points nodes = vn_network_points(network);
-    vn_point_tree_any_in_lune(&network->tree_of_points, &nodes, lune, is_in_lune, &search);
+    vn_point_tree_any_in_lune(&network->tree_of_points, lune, is_in_lune, &search);
     return search.found;
 }
 
@@ -425,9 +424,8 @@ static vn_status find_around(vn_attractors *a, vn_network *network, int32_t i, c
     double reach;
     if (a->mode == VN_RELATIVE) {
         const vn_point_tree *tree;
-        vn_points nodes = vn_network_points(network);
         VN_TRY(vn_network_tree_of_points(network, &tree));
-        VN_TRY(vn_point_tree_around(tree, &nodes, s, a->reach2, &a->near_nodes));
+        VN_TRY(vn_point_tree_around(tree, s, a->reach2, &a->near_nodes));
         reach = interest_of(a, network, s);
     } else {
         VN_TRY(find_hole(a, network, i, s, &reach));

@@ -97,10 +97,10 @@ static bool is_clear(const clearing *c, const double p[3], int32_t *refuser) {
     if (c->tree == NULL && c->grid == NULL) {
         return true;
     }
-    vn_points nodes = vn_network_points(c->network);
     if (c->tree != NULL) {
-        *refuser = vn_point_tree_any_within(c->tree, &nodes, p, c->reach) ? 0 : -1;
+        *refuser = vn_point_tree_any_within(c->tree, p, c->reach) ? 0 : -1;
     } else {
+        vn_points nodes = vn_network_points(c->network);
         *refuser = vn_point_grid_any_within(c->grid, &nodes, p, c->reach, NULL, NULL);
     }
     return *refuser < 0;

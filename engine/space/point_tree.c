@@ -1,10 +1,12 @@
 #include "space/point_tree.h"
 
-enum { LEAF = 8, DEEPEST = 60 };
+enum { LEAF = 12, DEEPEST = 60 };
 
 void vn_point_tree_free(vn_point_tree *tree) {
     vn_array_free(&tree->cells);
-    vn_array_free(&tree->next);
+    vn_array_free(&tree->benches);
+    vn_array_free(&tree->places);
+    tree->count = 0;
 }
 
 static const vn_tree_cell empty_cell = {-1, -1, 0};
@@ -36,22 +38,74 @@ static int octant(int dim, place *at, const double p[3]) {
     return which;
 }
 
-static void link_point(vn_point_tree *tree, int32_t cell, int32_t point) {
-    tree->next.data[point] = tree->cells.data[cell].head;
-    tree->cells.data[cell].head = point;
-    tree->cells.data[cell].count++;
+// A leaf's points, and one more, on a bench each.
+static vn_status make_benches(vn_point_tree *tree) {
+    int64_t most = (int64_t)tree->benches.count + LEAF + 1;
+    VN_TRY(vn_array_reserve(&tree->benches, most));
+    return vn_array_reserve(&tree->places, most * VN_BENCH * tree->dim);
 }
 
-static vn_status split_leaf(vn_point_tree *tree, const vn_points *points, int32_t cell, const place *at) {
-    int32_t first, point = tree->cells.data[cell].head;
+static int32_t take_bench(vn_point_tree *tree) {
+    int32_t bench = tree->idle;
+    if (bench >= 0) {
+        tree->idle = tree->benches.data[bench].next;
+        return bench;
+    }
+    return tree->benches.count++;
+}
+
+static void give_back(vn_point_tree *tree, int32_t bench) {
+    tree->benches.data[bench].next = tree->idle;
+    tree->idle = bench;
+}
+
+static double *places_of(const vn_point_tree *tree, int32_t bench) {
+    return tree->places.data + (int64_t)bench * VN_BENCH * tree->dim;
+}
+
+// How many sit on the first bench of a leaf; its others are full.
+static int first_taken(const vn_tree_cell *leaf) {
+    return (leaf->count - 1) % VN_BENCH + 1;
+}
+
+static void get_place(const vn_point_tree *tree, int32_t bench, int seat, double p[3]) {
+    const double *places = places_of(tree, bench) + seat;
+    p[0] = places[0];
+    p[1] = places[VN_BENCH];
+    p[2] = tree->dim == 3 ? places[2 * VN_BENCH] : 0;
+}
+
+// There are benches enough: see make_benches().
+static void seat_point(vn_point_tree *tree, int32_t cell, int32_t point, const double p[3]) {
+    vn_tree_cell *leaf = &tree->cells.data[cell];
+    int seat = leaf->count++ % VN_BENCH;
+    if (seat == 0) {
+        int32_t bench = take_bench(tree);
+        tree->benches.data[bench].next = leaf->head;
+        leaf->head = bench;
+    }
+    tree->benches.data[leaf->head].points[seat] = point;
+    for (int k = 0; k < tree->dim; k++) {
+        places_of(tree, leaf->head)[k * VN_BENCH + seat] = p[k];
+    }
+}
+
+static vn_status split_leaf(vn_point_tree *tree, int32_t cell, const place *at) {
+    int32_t first;
+    vn_tree_cell leaf = tree->cells.data[cell];
+    VN_TRY(make_benches(tree));
     VN_TRY(add_children(tree, &first));
-    while (point >= 0) {
-        int32_t next = tree->next.data[point];
-        double p[3];
-        place below = *at;
-        vn_points_get(points, point, p);
-        link_point(tree, first + octant(tree->dim, &below, p), point);
-        point = next;
+    int taken = first_taken(&leaf);
+    for (int32_t bench = leaf.head; bench >= 0; taken = VN_BENCH) {
+        vn_tree_bench old = tree->benches.data[bench];
+        for (int seat = 0; seat < taken; seat++) {
+            double p[3];
+            place below = *at;
+            get_place(tree, bench, seat, p);
+            seat_point(tree, first + octant(tree->dim, &below, p), old.points[seat], p);
+        }
+        give_back(tree, bench);
+        bench = old.next;
     }
     tree->cells.data[cell] = (vn_tree_cell){first, -1, 0};
     return VN_OK;
@@ -61,18 +115,17 @@ static place root_of(const vn_point_tree *tree) {
     return (place){{tree->low[0], tree->low[1], tree->low[2]}, tree->size};
 }
 
-static vn_status insert(vn_point_tree *tree, const vn_points *points, int32_t point) {
-    double p[3];
+static vn_status insert(vn_point_tree *tree, int32_t point, const double p[3]) {
     place at = root_of(tree);
     int32_t cell = 0;
-    vn_points_get(points, point, p);
+    VN_TRY(make_benches(tree));
     for (int depth = 0;; depth++) {
         if (tree->cells.data[cell].children < 0) {
             if (tree->cells.data[cell].count < LEAF || depth >= DEEPEST) {
-                link_point(tree, cell, point);
+                seat_point(tree, cell, point, p);
                 return VN_OK;
             }
-            VN_TRY(split_leaf(tree, points, cell, &at));
+            VN_TRY(split_leaf(tree, cell, &at));
         }
         cell = tree->cells.data[cell].children + octant(tree->dim, &at, p);
     }
@@ -110,6 +163,7 @@ static vn_status grow_root(vn_point_tree *tree, const double p[3]) {
 static vn_status plant(vn_point_tree *tree, int dim, const vn_points *points, int32_t count) {
     double high[3];
     tree->dim = dim;
+    tree->idle = -1;
     double size = vn_points_extent(points, 0, count, tree->low, high);
     int exponent;
     frexp(size > 0 ? size : 1, &exponent);
@@ -121,24 +175,22 @@ static vn_status plant(vn_point_tree *tree, int dim, const vn_points *points, in
 }
 
 vn_status vn_point_tree_update(vn_point_tree *tree, int dim, const vn_points *points, int32_t count) {
-    VN_TRY(vn_array_reserve(&tree->next, count));
     if (tree->cells.count == 0 && count > 0) {
         VN_TRY(plant(tree, dim, points, count));
     }
-    for (; tree->next.count < count; tree->next.count++) {
+    for (; tree->count < count; tree->count++) {
         double p[3];
-        vn_points_get(points, tree->next.count, p);
+        vn_points_get(points, tree->count, p);
         while (!is_inside(tree, p)) {
             VN_TRY(grow_root(tree, p));
         }
-        VN_TRY(insert(tree, points, tree->next.count));
+        VN_TRY(insert(tree, tree->count, p));
     }
     return VN_OK;
 }
 
 typedef struct lune_query {
     const vn_point_tree *tree;
-    const vn_points *points;
     const vn_lune *lune;
     double width2; ///< the squared distance of the lune's two points, and a little
     vn_point_test_fn *test;
@@ -164,12 +216,17 @@ static double distance2_to(const place *at, int dim, const double p[3]) {
 }
 
 static bool any_in_leaf(const lune_query *q, const vn_tree_cell *leaf) {
-    for (int32_t point = leaf->head; point >= 0; point = q->tree->next.data[point]) {
-        if (vn_points_distance2(q->points, point, q->lune->s) <= q->width2 &&
-            vn_points_distance2(q->points, point, q->lune->v) <= q->width2 &&
-            q->test(point, q->lune, q->payload)) {
-            return true;
+    int taken = first_taken(leaf);
+    for (int32_t bench = leaf->head; bench >= 0; bench = q->tree->benches.data[bench].next) {
+        for (int seat = 0; seat < taken; seat++) {
+            double p[3];
+            get_place(q->tree, bench, seat, p);
+            if (vn_distance2(p, q->lune->s) <= q->width2 && vn_distance2(p, q->lune->v) <= q->width2 &&
+                q->test(q->tree->benches.data[bench].points[seat], q->lune, q->payload)) {
+                return true;
+            }
         }
+        taken = VN_BENCH;
     }
     return false;
 }
@@ -252,25 +309,30 @@ static int32_t descend_to(const lune_query *q, place *at) {
     return cell;
 }
 
-bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_points *points, const vn_lune *lune,
-                               vn_point_test_fn *test, void *payload) {
-    lune_query q = {tree, points, lune, vn_distance2(lune->s, lune->v) * (1 + 1e-9), test, payload};
+bool vn_point_tree_any_in_lune(const vn_point_tree *tree, const vn_lune *lune, vn_point_test_fn *test,
+                               void *payload) {
+    lune_query q = {tree, lune, vn_distance2(lune->s, lune->v) * (1 + 1e-9), test, payload};
     place at = root_of(tree);
     return tree->cells.count > 0 && any_below(&q, descend_to(&q, &at), &at);
 }
 
 typedef struct near_query {
     const vn_point_tree *tree;
-    const vn_points *points;
     const double *p;
     double radius2;
 } near_query;
 
 static bool any_near_in(const near_query *q, const vn_tree_cell *leaf) {
-    for (int32_t point = leaf->head; point >= 0; point = q->tree->next.data[point]) {
-        if (vn_points_distance2(q->points, point, q->p) < q->radius2) {
-            return true;
+    int taken = first_taken(leaf);
+    for (int32_t bench = leaf->head; bench >= 0; bench = q->tree->benches.data[bench].next) {
+        for (int seat = 0; seat < taken; seat++) {
+            double p[3];
+            get_place(q->tree, bench, seat, p);
+            if (vn_distance2(p, q->p) < q->radius2) {
+                return true;
+            }
         }
+        taken = VN_BENCH;
     }
     return false;
 }
@@ -298,16 +360,14 @@ static bool any_near(const near_query *q, int32_t cell, const place *at) {
     return false;
 }
 
-bool vn_point_tree_any_within(const vn_point_tree *tree, const vn_points *points, const double p[3],
-                              double radius) {
-    near_query q = {tree, points, p, radius * radius};
+bool vn_point_tree_any_within(const vn_point_tree *tree, const double p[3], double radius) {
+    near_query q = {tree, p, radius * radius};
     place root = root_of(tree);
     return tree->cells.count > 0 && any_near(&q, 0, &root);
 }
 
 typedef struct around_query {
     const vn_point_tree *tree;
-    const vn_points *points;
     const double *p;
     double reach2;
     vn_found_array *found;
@@ -320,12 +380,13 @@ static const double SURE = 1 - 1e-12;
 
 // Whether everything in the box is nearer to the found point than to p, and farther from p than that point
 // is: none of it can be a relative neighbor of p.
-static bool hides_box(const around_query *q, const vn_found *by, const place *at, double nearest2) {
+static inline bool hides_box(const around_query *q, int dim, const vn_found *by, const place *at,
+                             double nearest2) {
     double least = 0;
     if (!(by->distance2 < SURE * nearest2)) {
         return false;
     }
-    for (int k = 0; k < q->tree->dim; k++) {
+    for (int k = 0; k < dim; k++) {
         double low = at->low[k] - q->p[k];
         least += by->to[k] * (by->to[k] > 0 ? low : low + at->size);
     }
@@ -337,10 +398,10 @@ static bool hides_point(const vn_found *by, const vn_found *other) {
            vn_distance2(by->to, other->to) < SURE * other->distance2;
 }
 
-static bool is_box_hidden(const around_query *q, const place *at, double nearest2) {
+static inline bool is_box_hidden(const around_query *q, int dim, const place *at, double nearest2) {
     int32_t count = q->found->count < BLOCKERS ? q->found->count : BLOCKERS;
     for (int32_t k = 0; k < count; k++) {
-        if (hides_box(q, &q->found->data[k], at, nearest2)) {
+        if (hides_box(q, dim, &q->found->data[k], at, nearest2)) {
             return true;
         }
     }
@@ -362,11 +423,11 @@ static void drop_hidden(vn_found_array *found, const vn_found *by) {
     found->count = kept;
 }
 
-static vn_status find_point(const around_query *q, int32_t point) {
+static vn_status find_point(const around_query *q, int32_t bench, int seat) {
     vn_found_array *found = q->found;
-    vn_found one = {.point = point};
+    vn_found one = {.point = q->tree->benches.data[bench].points[seat]};
     double u[3];
-    vn_points_get(q->points, point, u);
+    get_place(q->tree, bench, seat, u);
     for (int k = 0; k < 3; k++) {
         one.to[k] = k < q->tree->dim ? u[k] - q->p[k] : 0;
         one.distance2 += one.to[k] * one.to[k];
@@ -389,20 +450,27 @@ static vn_status find_point(const around_query *q, int32_t point) {
     return VN_OK;
 }
 
+static vn_status find_in_leaf(const around_query *q, const vn_tree_cell *leaf) {
+    int taken = first_taken(leaf);
+    for (int32_t bench = leaf->head; bench >= 0; bench = q->tree->benches.data[bench].next) {
+        for (int seat = 0; seat < taken; seat++) {
+            VN_TRY(find_point(q, bench, seat));
+        }
+        taken = VN_BENCH;
+    }
+    return VN_OK;
+}
+
 // The nearest child first, so that what it holds hides the others.
 // NOLINTNEXTLINE(misc-no-recursion): as any_below()
-static vn_status find_below(const around_query *q, int32_t cell, const place *at) {
+static vn_status find_below(const around_query *q, int dim, int32_t cell, const place *at) {
     const vn_tree_cell *here = &q->tree->cells.data[cell];
-    int dim = q->tree->dim;
     double nearest2 = distance2_to(at, dim, q->p);
-    if (nearest2 > q->reach2 || is_box_hidden(q, at, nearest2)) {
+    if (nearest2 > q->reach2 || is_box_hidden(q, dim, at, nearest2)) {
         return VN_OK;
     }
     if (here->children < 0) {
-        for (int32_t point = here->head; point >= 0; point = q->tree->next.data[point]) {
-            VN_TRY(find_point(q, point));
-        }
-        return VN_OK;
+        return find_in_leaf(q, here);
     }
     place nearest = *at;
     int first = octant(dim, &nearest, q->p);
@@ -411,16 +479,19 @@ static vn_status find_below(const around_query *q, int32_t cell, const place *at
         const vn_tree_cell *next = &q->tree->cells.data[here->children + child];
         if (next->children >= 0 || next->count > 0) {
             place below = child_place(at, dim, child);
-            VN_TRY(find_below(q, here->children + child, &below));
+            VN_TRY(find_below(q, dim, here->children + child, &below));
         }
     }
     return VN_OK;
 }
 
-vn_status vn_point_tree_around(const vn_point_tree *tree, const vn_points *points, const double p[3],
-                               double reach2, vn_found_array *found) {
-    around_query q = {tree, points, p, reach2, found};
+vn_status vn_point_tree_around(const vn_point_tree *tree, const double p[3], double reach2,
+                               vn_found_array *found) {
+    around_query q = {tree, p, reach2, found};
     place root = root_of(tree);
     found->count = 0;
-    return tree->cells.count > 0 ? find_below(&q, 0, &root) : VN_OK;
+    if (tree->cells.count == 0) {
+        return VN_OK;
+    }
+    return tree->dim == 2 ? find_below(&q, 2, 0, &root) : find_below(&q, 3, 0, &root);
 }

@@ -64,7 +64,7 @@ static void check_lune(const cloud *c, const vn_point_tree *tree, const vn_lune 
     collection found = {0};
     vn_points points = points_of(c);
     double width2 = vn_distance2(lune->s, lune->v);
-    assert_false(vn_point_tree_any_in_lune(tree, &points, lune, collect, &found));
+    assert_false(vn_point_tree_any_in_lune(tree, lune, collect, &found));
     for (int i = 0; i < c->count; i++) {
         double to_s = vn_points_distance2(&points, i, lune->s),
                to_v = vn_points_distance2(&points, i, lune->v);
@@ -102,7 +102,7 @@ static void check_within(const cloud *c, const vn_point_tree *tree, vn_rng *rng)
     for (int32_t i = 0; i < c->count; i++) {
         any = any || vn_points_distance2(&points, i, p) < radius * radius;
     }
-    assert_int_equal(vn_point_tree_any_within(tree, &points, p, radius), any);
+    assert_int_equal(vn_point_tree_any_within(tree, p, radius), any);
 }
 
 static void the_tree_shows_what_is_in_a_lune(void **state) {
@@ -155,7 +155,7 @@ static void what_is_around_has_all_relative_neighbors(void **state) {
         s[0] += seed % 3 == 0 ? 0.37 * s[1] : 0;
         double reach2 = seed % 4 == 0 ? vn_points_distance2(&points, 0, s) : INFINITY;
         assert_ok(vn_point_tree_update(&tree, c.dim, &points, c.count));
-        assert_ok(vn_point_tree_around(&tree, &points, s, reach2, &found));
+        assert_ok(vn_point_tree_around(&tree, s, reach2, &found));
         for (int32_t k = 0; k < found.count; k++) {
             assert_false(seen[found.data[k].point]);
             assert_true(k == 0 || found.data[k - 1].distance2 <= found.data[k].distance2);
