@@ -29,17 +29,22 @@ static vn_status list_edges(vn_network *network) {
     return VN_OK;
 }
 
+// Of the edge grid, in typical lengths: wide enough for an edge to be in one or two cells, and for a few
+// edges to be in each.
+static const double CELL = 5;
+
 // New edges become shorter where the unit of length shrinks: cells that have become too wide for them, or too
 // few, are made anew.
 static vn_status renew_edges(vn_network *network, double typical) {
     const vn_edge_grid *grid = &network->edges;
     int32_t count = network->x.count + network->joins.count;
-    bool fits = grid->cell > 0 && grid->cell <= 4 * typical && typical <= 4 * grid->cell;
+    double cell = CELL * typical;
+    bool fits = grid->cell > 0 && grid->cell <= 2 * cell && cell <= 4 * grid->cell;
     if (!fits || count > network->edge_room || network->edges_moved != network->moved) {
         network->edge_nodes = network->edge_joins = 0;
         network->edge_room = count < INT32_MAX / 2 ? 2 * count + 512 : INT32_MAX;
         network->edges_moved = network->moved;
-        VN_TRY(vn_edge_grid_init(&network->edges, typical, network->edge_room));
+        VN_TRY(vn_edge_grid_init(&network->edges, cell, network->edge_room));
     }
     return list_edges(network);
 }
@@ -102,9 +107,15 @@ static void note_meeting(way *w, int32_t edge, const vn_segment *t, double part)
     }
 }
 
+// Whether the span of @p a and @p b begins beyond the end of that of @p c and @p d. (fmin() and fmax() are
+// calls.)
+static bool is_beyond(double a, double b, double c, double d, double near) {
+    return (a < b ? a : b) > (c > d ? c : d) + near;
+}
+
 static bool are_apart(const vn_segment *s, const vn_segment *t, double near) {
-    return fmin(s->x0, s->x1) > fmax(t->x0, t->x1) + near || fmin(t->x0, t->x1) > fmax(s->x0, s->x1) + near ||
-           fmin(s->y0, s->y1) > fmax(t->y0, t->y1) + near || fmin(t->y0, t->y1) > fmax(s->y0, s->y1) + near;
+    return is_beyond(s->x0, s->x1, t->x0, t->x1, near) || is_beyond(t->x0, t->x1, s->x0, s->x1, near) ||
+           is_beyond(s->y0, s->y1, t->y0, t->y1, near) || is_beyond(t->y0, t->y1, s->y0, s->y1, near);
 }
 
 // An edge of the node itself, or of the node that the way leads to, is met only where the way runs along it.

@@ -12,7 +12,7 @@ static const double MOST_CELLS = 1 << 20;
 
 vn_status vn_edge_grid_init(vn_edge_grid *grid, double cell, int32_t edges) {
     int64_t buckets = 1024;
-    while (buckets < 2 * (int64_t)edges && buckets < (1 << 30)) {
+    while (buckets < edges / 4 && buckets < (1 << 30)) {
         buckets *= 2;
     }
     vn_edge_grid_free(grid);
@@ -28,7 +28,7 @@ vn_status vn_edge_grid_init(vn_edge_grid *grid, double cell, int32_t edges) {
 
 void vn_edge_grid_free(vn_edge_grid *grid) {
     vn_array_free(&grid->heads);
-    vn_array_free(&grid->entries);
+    vn_array_free(&grid->blocks);
 }
 
 // In place of fmin(), fmax() and floor(), which are calls: half of the instructions of this file were theirs.
@@ -81,37 +81,45 @@ static vn_row row_of(const vn_edge_grid *grid, const vn_segment *s, int64_t j) {
     return (vn_row){j, cell_of(grid, low), cell_of(grid, high)};
 }
 
-// Not above, and not below: floats keep seven digits, of which the last is given away.
-static float below(double a, double b, double slack) {
-    double low = (a < b ? a : b) - slack;
-    return (float)(low - 1e-6 * fabs(low));
-}
+typedef struct vn_edge_box {
+    double low_x, low_y, high_x, high_y;
+} vn_edge_box;
 
-static float above(double a, double b, double slack) {
-    double high = (a > b ? a : b) + slack;
-    return (float)(high + 1e-6 * fabs(high));
-}
-
-static vn_edge_entry entry_of(const vn_edge_grid *grid, int32_t edge, const vn_segment *s) {
+static vn_edge_box box_of(const vn_edge_grid *grid, const vn_segment *s) {
     double slack = slack_of(grid, s);
-    return (vn_edge_entry){.edge = edge,
-                           .low_x = below(s->x0, s->x1, slack),
-                           .low_y = below(s->y0, s->y1, slack),
-                           .high_x = above(s->x0, s->x1, slack),
-                           .high_y = above(s->y0, s->y1, slack)};
+    return (vn_edge_box){lesser(s->x0, s->x1) - slack, lesser(s->y0, s->y1) - slack,
+                         greater(s->x0, s->x1) + slack, greater(s->y0, s->y1) + slack};
 }
 
-static bool overlap(const vn_edge_entry *a, const vn_edge_entry *b) {
-    return a->low_x <= b->high_x && b->low_x <= a->high_x && a->low_y <= b->high_y && b->low_y <= a->high_y;
+/// A box in 255ths of a cell, as far as it is in there.
+typedef struct vn_edge_part {
+    uint8_t low_x, low_y, high_x, high_y;
+} vn_edge_part;
+
+// What is not greater does not become greater by it: boxes that overlap do so in parts as well.
+static uint8_t part_of(const vn_edge_grid *grid, double coordinate, int64_t cell) {
+    double part = (coordinate - (double)cell * grid->cell) * (255 / grid->cell);
+    return part > 0 ? (uint8_t)lesser(part, 255) : 0;
 }
 
-static vn_status list_edge(vn_edge_grid *grid, vn_edge_entry entry, const vn_row *row) {
-    for (int64_t i = row->from; i <= row->to; i++) {
-        int32_t bucket = bucket_of(grid, i, row->j);
-        entry.next = grid->heads.data[bucket];
-        VN_TRY(vn_array_push(&grid->entries, entry));
-        grid->heads.data[bucket] = grid->entries.count - 1;
+static vn_edge_part parts_of(const vn_edge_grid *grid, const vn_edge_box *box, int64_t i, int64_t j) {
+    return (vn_edge_part){part_of(grid, box->low_x, i), part_of(grid, box->low_y, j),
+                          part_of(grid, box->high_x, i), part_of(grid, box->high_y, j)};
+}
+
+static vn_status list_in_bucket(vn_edge_grid *grid, int32_t bucket, int32_t edge, vn_edge_part part) {
+    int32_t head = grid->heads.data[bucket];
+    if (head < 0 || grid->blocks.data[head].count == VN_EDGE_BLOCK) {
+        VN_TRY(vn_array_push(&grid->blocks, (vn_edge_block){.next = head}));
+        head = grid->heads.data[bucket] = grid->blocks.count - 1;
     }
+    vn_edge_block *block = &grid->blocks.data[head];
+    int k = block->count++;
+    block->low_x[k] = part.low_x;
+    block->low_y[k] = part.low_y;
+    block->high_x[k] = part.high_x;
+    block->high_y[k] = part.high_y;
+    block->edges[k] = edge;
     return VN_OK;
 }
 
@@ -121,13 +129,33 @@ vn_status vn_edge_grid_insert(vn_edge_grid *grid, int32_t edge, const vn_segment
         return vn_fail(VN_LIMIT, "an edge is %g times as long as the new ones: split edges as they grow",
                        cells);
     }
-    double slack = slack_of(grid, s);
-    int64_t last = cell_of(grid, greater(s->y0, s->y1) + slack);
-    for (int64_t j = cell_of(grid, lesser(s->y0, s->y1) - slack); j <= last; j++) {
+    vn_edge_box box = box_of(grid, s);
+    int64_t last = cell_of(grid, box.high_y);
+    for (int64_t j = cell_of(grid, box.low_y); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
-        VN_TRY(list_edge(grid, entry_of(grid, edge, s), &row));
+        for (int64_t i = row.from; i <= row.to; i++) {
+            VN_TRY(list_in_bucket(grid, bucket_of(grid, i, j), edge, parts_of(grid, &box, i, j)));
+        }
     }
     return VN_OK;
+}
+
+static bool overlaps(const vn_edge_block *block, int k, vn_edge_part part) {
+    return (block->low_x[k] <= part.high_x) & (part.low_x <= block->high_x[k]) &
+           (block->low_y[k] <= part.high_y) & (part.low_y <= block->high_y[k]);
+}
+
+static bool visit_bucket(const vn_edge_grid *grid, int32_t bucket, vn_edge_part part,
+                         vn_segment_visit_fn *visit, void *payload) {
+    for (int32_t at = grid->heads.data[bucket]; at >= 0; at = grid->blocks.data[at].next) {
+        const vn_edge_block *block = &grid->blocks.data[at];
+        for (int k = 0; k < block->count; k++) {
+            if (overlaps(block, k, part) && !visit(block->edges[k], payload)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *s, vn_segment_visit_fn *visit,
@@ -135,19 +163,14 @@ bool vn_edge_grid_visit(const vn_edge_grid *grid, const vn_segment *s, vn_segmen
     if (grid->heads.count == 0) {
         return true;
     }
-    vn_edge_entry own = entry_of(grid, 0, s);
-    double slack = slack_of(grid, s);
-    int64_t last = cell_of(grid, greater(s->y0, s->y1) + slack);
-    for (int64_t j = cell_of(grid, lesser(s->y0, s->y1) - slack); j <= last; j++) {
+    vn_edge_box box = box_of(grid, s);
+    int64_t last = cell_of(grid, box.high_y);
+    for (int64_t j = cell_of(grid, box.low_y); j <= last; j++) {
         vn_row row = row_of(grid, s, j);
         for (int64_t i = row.from; i <= row.to; i++) {
-            int32_t next = grid->heads.data[bucket_of(grid, i, j)];
-            while (next >= 0) {
-                const vn_edge_entry *entry = &grid->entries.data[next];
-                if (overlap(entry, &own) && !visit(entry->edge, payload)) {
-                    return false;
-                }
-                next = entry->next;
+            vn_edge_part part = parts_of(grid, &box, i, j);
+            if (!visit_bucket(grid, bucket_of(grid, i, j), part, visit, payload)) {
+                return false;
             }
         }
     }
