@@ -19,8 +19,10 @@ typedef struct polygon {
     strips strips;
 } polygon;
 
+// Not by fmin(), fmax() and floor(), which are calls: every node of a leaf asks several times.
 static int32_t strip_of(const strips *s, double y) {
-    return (int32_t)fmin(fmax(floor((y - s->min_y) / s->height), 0), s->count - 1);
+    double strip = (y - s->min_y) / s->height, last = s->count - 1;
+    return strip > 0 ? (int32_t)(strip < last ? strip : last) : 0;
 }
 
 static void strips_of(const strips *s, const vn_segment *edge, int32_t *first, int32_t *last) {
@@ -79,8 +81,19 @@ static vn_status build_strips(polygon *poly) {
     return VN_OK;
 }
 
-// A ray to the right crosses the border an odd number of times. Whether it passes left of an edge is
-// decided exactly.
+// Whether a ray from @p p to the right crosses an edge that it is level with, decided exactly.
+static bool is_left_of(const vn_segment *e, bool upward, const double p[3]) {
+    if (p[0] < e->x0 && p[0] < e->x1) {
+        return true;
+    }
+    if (p[0] > e->x0 && p[0] > e->x1) {
+        return false;
+    }
+    double turn = vn_turn(e->x0, e->y0, e->x1, e->y1, p[0], p[1]);
+    return upward ? turn > 0 : turn < 0;
+}
+
+// A ray to the right crosses the border an odd number of times.
 static bool polygon_contains(const vn_domain *domain, const double p[3]) {
     const polygon *poly = (const polygon *)domain;
     const strips *s = &poly->strips;
@@ -95,8 +108,7 @@ static bool polygon_contains(const vn_domain *domain, const double p[3]) {
         if (upward == (e->y1 <= p[1])) {
             continue;
         }
-        double turn = vn_turn(e->x0, e->y0, e->x1, e->y1, p[0], p[1]);
-        inside ^= upward ? turn > 0 : turn < 0;
+        inside ^= is_left_of(e, upward, p);
     }
     return inside;
 }

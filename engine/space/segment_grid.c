@@ -9,8 +9,10 @@ void vn_segment_grid_free(vn_segment_grid *grid) {
     grid->columns = grid->rows = 0;
 }
 
+// Rounded down. Not by fmin(), fmax() and floor(), which are calls: every step of a vein asks four times.
 static int32_t clamp_cell(double cell, int32_t cells) {
-    return (int32_t)fmin(fmax(cell, 0), cells - 1);
+    double last = cells - 1;
+    return cell > 0 ? (int32_t)(cell < last ? cell : last) : 0;
 }
 
 typedef struct cell_range {
@@ -20,10 +22,10 @@ typedef struct cell_range {
 static cell_range range_of(const vn_segment_grid *grid, double min_x, double min_y, double max_x,
                            double max_y) {
     return (cell_range){
-        clamp_cell(floor((min_x - grid->min_x) / grid->cell), grid->columns),
-        clamp_cell(floor((max_x - grid->min_x) / grid->cell), grid->columns),
-        clamp_cell(floor((min_y - grid->min_y) / grid->cell), grid->rows),
-        clamp_cell(floor((max_y - grid->min_y) / grid->cell), grid->rows),
+        clamp_cell((min_x - grid->min_x) / grid->cell, grid->columns),
+        clamp_cell((max_x - grid->min_x) / grid->cell, grid->columns),
+        clamp_cell((min_y - grid->min_y) / grid->cell, grid->rows),
+        clamp_cell((max_y - grid->min_y) / grid->cell, grid->rows),
     };
 }
 
@@ -87,8 +89,8 @@ static void choose_cells(vn_segment_grid *grid) {
     grid->min_x = low[0];
     grid->min_y = low[1];
     grid->cell = size > 0 ? size / across : 1;
-    grid->columns = clamp_cell(floor((high[0] - low[0]) / grid->cell), across + 1) + 1;
-    grid->rows = clamp_cell(floor((high[1] - low[1]) / grid->cell), across + 1) + 1;
+    grid->columns = clamp_cell((high[0] - low[0]) / grid->cell, across + 1) + 1;
+    grid->rows = clamp_cell((high[1] - low[1]) / grid->cell, across + 1) + 1;
 }
 
 vn_status vn_segment_grid_build(vn_segment_grid *grid) {
@@ -194,8 +196,8 @@ int32_t vn_segment_grid_nearest(const vn_segment_grid *grid, double x, double y,
                                 double q[2]) {
     nearest_search search = {grid, x, y, -1, INFINITY, {0, 0}};
     if (grid->columns > 0) {
-        int32_t column = clamp_cell(floor((x - grid->min_x) / grid->cell), grid->columns);
-        int32_t row = clamp_cell(floor((y - grid->min_y) / grid->cell), grid->rows);
+        int32_t column = clamp_cell((x - grid->min_x) / grid->cell, grid->columns);
+        int32_t row = clamp_cell((y - grid->min_y) / grid->cell, grid->rows);
         // From a point outside the grid, rings are counted from the nearest cell: a ring's cells are then at
         // least (ring - 1) cells away from the point too.
         int32_t last = grid->columns > grid->rows ? grid->columns : grid->rows;
