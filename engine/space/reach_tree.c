@@ -4,10 +4,13 @@
 
 enum { FAN = VN_REACH_FAN };
 
+static const unsigned ALL = (1U << FAN) - 1;
+
 void vn_reach_tree_free(vn_reach_tree *tree) {
     vn_array_free(&tree->items);
     vn_array_free(&tree->packs);
     vn_array_free(&tree->watches);
+    vn_array_free(&tree->runs);
     vn_array_free(&tree->places);
     tree->levels = 0;
 }
@@ -135,8 +138,27 @@ static vn_status build_level(vn_reach_tree *tree, int32_t parts, const vn_points
 }
 
 // Nobody is posted yet.
-static vn_status build_watches(vn_reach_tree *tree, int32_t count) {
+static void build_runs(vn_reach_tree *tree, const vn_points *points, const double *near2) {
+    tree->runs.count = (tree->items.count + FAN - 1) / FAN;
+    for (int32_t k = 0; k < tree->runs.count * FAN; k++) {
+        vn_reach_run *run = &tree->runs.data[k / FAN];
+        double p[3] = {0, 0, 0};
+        bool is_there = k < tree->items.count;
+        if (is_there) {
+            vn_points_get(points, tree->items.data[k], p);
+        }
+        for (int d = 0; d < 3; d++) {
+            run->at[d][k % FAN] = run->guard[d][k % FAN] = p[d];
+        }
+        run->guard2[k % FAN] = INFINITY;
+        run->near2[k % FAN] = is_there ? near2[tree->items.data[k]] : INFINITY;
+    }
+}
+
+static vn_status build_watches(vn_reach_tree *tree, const vn_points *points, const double *near2,
+                               int32_t count) {
     VN_TRY(vn_array_reserve(&tree->watches, tree->packs.count));
+    VN_TRY(vn_array_reserve(&tree->runs, (tree->items.count + FAN - 1) / FAN));
     VN_TRY(vn_array_reserve(&tree->places, count));
     tree->watches.count = tree->packs.count;
     tree->places.count = count;
@@ -153,6 +175,7 @@ static vn_status build_watches(vn_reach_tree *tree, int32_t count) {
     for (int32_t k = 0; k < tree->items.count; k++) {
         tree->places.data[tree->items.data[k]] = k;
     }
+    build_runs(tree, points, near2);
     return VN_OK;
 }
 
@@ -169,8 +192,8 @@ vn_status vn_reach_tree_build(vn_reach_tree *tree, int dim, const vn_points *poi
         VN_TRY(build_level(tree, parts, points, reach2));
         parts = tree->starts[tree->levels] - tree->starts[tree->levels - 1];
     } while (parts > 1 && tree->levels < VN_REACH_LEVELS);
-    tree->watches.count = tree->places.count = 0;
-    return filter != NULL ? build_watches(tree, count) : VN_OK;
+    tree->watches.count = tree->runs.count = tree->places.count = 0;
+    return filter != NULL ? build_watches(tree, points, filter->near2, count) : VN_OK;
 }
 
 typedef struct reach_query {
@@ -221,9 +244,9 @@ typedef struct reach_part {
 
 // How much nearer every point s of the part is to a guard than to p, in squares, at least; or not at all when
 // the guard is no nearer to p than the part may be. With all places relative to p it is 2 g·s - g².
-static double gain_of(const reach_query *q, const reach_part *part, const double guard[3]) {
+static inline double gain_in(int dim, const reach_query *q, const reach_part *part, const double guard[3]) {
     double gain = 0, way2 = 0;
-    for (int k = 0; k < q->tree->dim; k++) {
+    for (int k = 0; k < dim; k++) {
         double way = guard[k] - q->p[k];
         double low = way * ((double)part->pack->low[k][part->i] - q->p[k]);
         double high = way * ((double)part->pack->high[k][part->i] - q->p[k]);
@@ -232,6 +255,11 @@ static double gain_of(const reach_query *q, const reach_part *part, const double
     }
     bool nearer = way2 + q->margin < (double)part->nearest2 && part->nearest2 <= FLT_MAX; // or it overflowed
     return nearer ? 2 * gain - way2 - q->margin : -1;
+}
+
+// Dimensions that the compiler knows of halve its instructions; half a hundred guards are asked for a node.
+static double gain_of(const reach_query *q, const reach_part *part, const double guard[3]) {
+    return q->tree->dim == 2 ? gain_in(2, q, part, guard) : gain_in(3, q, part, guard);
 }
 
 static bool is_kept_out(const reach_query *q, const reach_part *part) {
@@ -270,20 +298,74 @@ static bool post_guard(reach_query *q, const reach_part *part) {
     return true;
 }
 
+// What is certain, whatever doubles do to the last bits.
+static const double SURE = 1 - 1e-12;
+
+// Bit i: nobody is known to keep p from point i of the run. The loops have no branches, so that a compiler
+// makes vectors of them: where points are few and far between, a new one is asked of half a hundred.
+static inline unsigned open_to(int dim, const vn_reach_run *run, const double p[3]) {
+    double d2[FAN] = {0}, way2[FAN] = {0};
+    for (int k = 0; k < dim; k++) {
+#pragma omp simd
+        for (int i = 0; i < FAN; i++) {
+            double d = run->at[k][i] - p[k], way = run->guard[k][i] - p[k];
+            d2[i] += d * d;
+            way2[i] += way * way;
+        }
+    }
+    unsigned bits = 0;
+#pragma omp simd reduction(| : bits)
+    for (int i = 0; i < FAN; i++) {
+        double sure2 = SURE * d2[i], farther2 = run->guard2[i] > way2[i] ? run->guard2[i] : way2[i];
+        bits |= d2[i] > run->near2[i] && farther2 < sure2 ? 0U : 1U << i;
+    }
+    return bits;
+}
+
+// Where one of those stands that kept p out already.
+static void note_guard(reach_query *q, const vn_reach_run *run, unsigned kept) {
+    int i = 0;
+    while (!(kept >> i & 1)) {
+        i++;
+    }
+    for (int k = 0; k < 3; k++) {
+        q->guard[k] = run->guard[k][i];
+    }
+    q->guarded = true;
+}
+
+// Whether some guard keeps p, at @p d2, from point @p i of the run; it is asked first from then on.
+static bool is_item_kept_out(reach_query *q, vn_reach_run *run, int i, int32_t item, double d2) {
+    if (q->filter == NULL || !q->filter->keeps_out(q->filter->payload, item, q->p, d2, q->guard)) {
+        return false;
+    }
+    run->guard2[i] = 0;
+    for (int k = 0; k < q->tree->dim; k++) {
+        double d = q->guard[k] - run->at[k][i];
+        run->guard[k][i] = q->guard[k];
+        run->guard2[i] += d * d;
+    }
+    q->guarded = true;
+    return true;
+}
+
 // The hits have room for a run more. Returns what the run remembers at most.
 static float query_run(reach_query *q, const reach_part *part) {
     double most = -1;
-    for (int32_t i = part->begin; i < part->end; i++) {
+    vn_reach_run *run = q->filter != NULL ? &q->tree->runs.data[part->begin / FAN] : NULL;
+    unsigned open = run == NULL ? ALL : q->tree->dim == 2 ? open_to(2, run, q->p) : open_to(3, run, q->p);
+    if (open != ALL) {
+        note_guard(q, run, ~open);
+    }
+    for (int32_t i = part->begin; i < part->end; i++, open >>= 1) {
         int32_t item = q->tree->items.data[i];
         double remembered = q->reach2[item];
-        double d2 = vn_points_distance2(q->points, item, q->p);
         most = remembered > most ? remembered : most;
-        if (!(d2 <= remembered)) {
+        if (!(open & 1)) {
             continue;
         }
-        if (q->filter != NULL && q->filter->keeps_out(q->filter->payload, item, q->p, d2, q->guard)) {
-            q->guarded = true;
-        } else {
+        double d2 = vn_points_distance2(q->points, item, q->p);
+        if (d2 <= remembered && !is_item_kept_out(q, run, i % FAN, item, d2)) {
             q->hits->data[q->hits->count++] = (vn_reach_hit){item, d2};
         }
     }
@@ -379,7 +461,9 @@ void vn_reach_tree_raise_near(vn_reach_tree *tree, const vn_points *points, int3
     if (point >= tree->places.count || tree->places.data[point] < 0) {
         return;
     }
-    int32_t part = tree->places.data[point] / FAN;
+    int32_t place = tree->places.data[point], part = place / FAN;
+    double *own = &tree->runs.data[part].near2[place % FAN];
+    *own = near2 > *own ? near2 : *own;
     for (int level = 0; level < tree->levels; level++, part /= FAN) {
         vn_reach_watch *watch = &tree->watches.data[tree->starts[level] + part / FAN];
         for (int g = 0; g < VN_REACH_GUARDS; g++) {

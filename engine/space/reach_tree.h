@@ -31,11 +31,20 @@ typedef struct vn_reach_watch {
     uint8_t turn[VN_REACH_FAN]; ///< which of them gives way next
 } vn_reach_watch;
 
+/// The points of a run side by side, and who kept a new point from each of them last.
+typedef struct vn_reach_run {
+    double at[3][VN_REACH_FAN];
+    double guard[3][VN_REACH_FAN];
+    double guard2[VN_REACH_FAN]; ///< its squared distance from the point; INFINITY: nobody is posted
+    double near2[VN_REACH_FAN];  ///< the filter's, or more
+} vn_reach_run;
+
 typedef struct vn_reach_tree {
     int dim;
     VN_ARRAY(int32_t) items; ///< the points along the curve, in runs of eight
     VN_ARRAY(vn_reach_pack) packs;
     VN_ARRAY(vn_reach_watch) watches; ///< of the packs, where there is a filter
+    VN_ARRAY(vn_reach_run) runs;      ///< then too
     VN_ARRAY(int32_t) places;         ///< then, of each point among the items, or -1
     int32_t
         starts[VN_REACH_LEVELS + 1]; ///< level l has the packs [starts[l], starts[l + 1]); level 0 boxes runs
