@@ -100,18 +100,37 @@ void vn_ties_drop(vn_attractors *a, int32_t i) {
     a->first_tie.data[i] = -1;
 }
 
+static bool is_tie(const vn_attractors *a, int32_t i, int32_t node) {
+    for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
+        if (a->ties.data[tie].node == node && !(a->ties.data[tie].state & VN_GHOST)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// A vein that has come stays an end, although another one came between it and the attractor.
+static bool is_end_of_old(const vn_attractors *a, int32_t i, const vn_tie *tie) {
+    bool came = (tie->state & VN_TAGGED) && (tie->state & VN_REACHED);
+    return came && (a->stage.data[i] & VN_TOUCHED) && !is_tie(a, i, tie->node);
+}
+
 void vn_ties_drop_ghosts(vn_attractors *a, const vn_network *network, int32_t i) {
     int32_t *link = &a->first_tie.data[i];
     double farthest2 = 0;
     while (*link >= 0) {
-        int32_t tie = *link;
-        if (a->ties.data[tie].state & VN_GHOST) {
-            *link = a->ties.data[tie].next;
-            give_back(a, tie);
-        } else {
-            farthest2 = fmax(farthest2, vn_attractors_distance2(a, network, i, a->ties.data[tie].node));
-            link = &a->ties.data[tie].next;
+        int32_t at = *link;
+        vn_tie *tie = &a->ties.data[at];
+        bool ghost = tie->state & VN_GHOST;
+        if (ghost && !is_end_of_old(a, i, tie)) {
+            *link = tie->next;
+            give_back(a, at);
+            continue;
         }
+        if (!ghost) {
+            farthest2 = fmax(farthest2, vn_attractors_distance2(a, network, i, tie->node));
+        }
+        link = &tie->next;
     }
     a->farthest2.data[i] = farthest2;
 }
@@ -270,15 +289,6 @@ static int32_t find_in_lune(const vn_network *network, const vn_lune *lune) {
     lune_search search = {network, -1};
     vn_point_tree_any_in_lune(&network->tree_of_points, lune, is_in_lune, &search);
     return search.found;
-}
-
-static bool is_tie(const vn_attractors *a, int32_t i, int32_t node) {
-    for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
-        if (a->ties.data[tie].node == node && !(a->ties.data[tie].state & VN_GHOST)) {
-            return true;
-        }
-    }
-    return false;
 }
 
 // A node from which the triangulation is searched: a neighbor of old, or for a newcomer the nearest node.

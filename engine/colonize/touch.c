@@ -95,8 +95,13 @@ static bool came_later(const vn_network *network, int32_t a, int32_t b) {
     return ba != bb ? ba > bb : a > b;
 }
 
-// By arrival.
+// By arrival; once, where the node is a member again that was none for a while.
 static void note_end(meeting_ends *ends, const vn_network *network, const vn_tie *tie) {
+    for (int k = 0; k < ends->count; k++) {
+        if (ends->node[k] == tie->node) {
+            return;
+        }
+    }
     if (ends->count == MOST_ENDS) {
         return;
     }
@@ -133,39 +138,51 @@ static void collect_ends(const touch *t, int32_t i, meeting_ends *ends) {
     *ends = (meeting_ends){0};
     for (int32_t tie = t->a->first_tie.data[i]; tie >= 0; tie = t->a->ties.data[tie].next) {
         const vn_tie *one = &t->a->ties.data[tie];
-        if ((one->state & (VN_TAGGED | VN_REACHED | VN_GHOST)) == (VN_TAGGED | VN_REACHED)) {
+        if ((one->state & VN_TAGGED) && (one->state & VN_REACHED)) {
             note_end(ends, t->network, one);
         }
     }
     drop_nodes_behind(ends, t->network, 2 * t->patience + 8);
 }
 
+static bool is_short(const touch *t, double way) {
+    return way <= 2 * t->a->last.length * (1 + 1e-9);
+}
+
 static bool are_close(const touch *t, int32_t a, int32_t b) {
     double p[3], q[3];
-    double most = 2 * t->a->last.length * (1 + 1e-9);
     vn_network_position(t->network, a, p);
     vn_network_position(t->network, b, q);
-    return vn_distance2(p, q) <= most * most;
+    return is_short(t, sqrt(vn_distance2(p, q)));
 }
 
-static bool may_join_group(const touch *t, const int32_t *group, int count, int32_t end) {
+// Ends that are all near the attractor meet there when each is close to some other: a ring of five is one
+// junction, not two and a near miss. Ends farther from it have to be close to one another.
+static bool may_join_group(const touch *t, int32_t i, const int32_t *group, int count, int32_t end) {
+    int close = 0;
+    bool near = is_short(t, distance_to(t, i, end));
     for (int k = 0; k < count; k++) {
-        if (!are_close(t, group[k], end) || vn_met_before(t->network, group[k], end)) {
+        if (vn_met_before(t->network, group[k], end)) {
             return false;
         }
+        close += are_close(t, group[k], end);
+        near = near && is_short(t, distance_to(t, i, group[k]));
     }
-    return true;
+    return count == 0 || close == count || (near && close > 0);
 }
 
-// The group of ends, all close to one another, that the first free end belongs to; into @p group.
-static int next_group(const touch *t, meeting_ends *ends, int32_t group[MOST_ENDS], bool *grew) {
-    int count = 0;
+// The group of ends that the first free end belongs to; into @p group.
+static int next_group(const touch *t, int32_t i, meeting_ends *ends, int32_t group[MOST_ENDS], bool *grew) {
+    int count = 0, before = -1;
     *grew = false;
-    for (int k = 0; k < ends->count; k++) {
-        if (!ends->taken[k] && may_join_group(t, group, count, ends->node[k])) {
-            ends->taken[k] = true;
-            *grew = *grew || ends->grew[k];
-            group[count++] = ends->node[k];
+    while (count > before) { // who came late may bring others nearer
+        before = count;
+        for (int k = 0; k < ends->count; k++) {
+            if (!ends->taken[k] && may_join_group(t, i, group, count, ends->node[k])) {
+                ends->taken[k] = true;
+                *grew = *grew || ends->grew[k];
+                group[count++] = ends->node[k];
+            }
         }
     }
     return count;
@@ -237,7 +254,7 @@ static vn_status join_ends(const touch *t, int32_t i) {
     int32_t group[MOST_ENDS];
     bool grew, first = true;
     collect_ends(t, i, &ends);
-    for (int count; (count = next_group(t, &ends, group, &grew)) > 0;) {
+    for (int count; (count = next_group(t, i, &ends, group, &grew)) > 0;) {
         if (count > 1 && grew) {
             VN_TRY(join_group(t, i, group, count, first));
             first = false;

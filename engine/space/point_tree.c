@@ -86,6 +86,7 @@ static void seat_point(vn_point_tree *tree, int32_t cell, int32_t point, const d
     }
     tree->benches.data[leaf->head].points[seat] = point;
     for (int k = 0; k < tree->dim; k++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): there are 2 or 3 dimensions
         places_of(tree, leaf->head)[k * VN_BENCH + seat] = p[k];
     }
 }
