@@ -36,8 +36,8 @@ enum {
     VN_REACHED = 2, ///< it is within the kill distance, and no longer drawn
     VN_LEFT = 4,    ///< tagged, but it does not come nearer any more
     VN_GREW = 8,    ///< it grew toward the attractor: it is no bystander
-    VN_GHOST = 16,  ///< a member no more; kept until the step is over, for its children to ask
-    VN_OUSTED = 32, ///< by the new nodes that are being looked at just now
+    VN_GHOST = 16,  ///< a member no more; kept until the step is over, for its children to ask, or as an end
+                    ///< that came
 };
 
 /// An attractor is not perceived while its nearest node is this one, has this first child (-1: none), and

@@ -472,6 +472,9 @@ vn_status vn_ties_look(vn_attractors *a, vn_network *network, int32_t i) {
     return VN_OK;
 }
 
+// In the key of a new node beside the attractor's number: it grew from a member.
+static const uint64_t OF_MEMBER = (uint64_t)1 << 63;
+
 // New nodes drive out the members that they exclude, even where they are no members themselves: that is what
 // sets the relative neighbors apart from the Urquhart ones (Figure 8). What a member excludes gets the node
 // -1 - node in the list.
@@ -489,7 +492,7 @@ static void push_in(vn_attractors *a, const vn_network *network, int32_t i, cons
             if (node >= 0 && excludes(v, u, s)) {
                 news[k].value = -1 - node;
             } else if (excludes(u, v, s)) {
-                a->ties.data[tie].state |= VN_GHOST | VN_OUSTED;
+                a->ties.data[tie].state |= VN_GHOST;
             }
         }
     }
@@ -509,26 +512,15 @@ static bool is_excluded_by_new(const vn_network *network, const double s[3], con
     return false;
 }
 
-// Whether the node was a member when these new nodes came.
-static bool was_member(const vn_attractors *a, int32_t i, int32_t node) {
-    for (int32_t tie = a->first_tie.data[i]; node >= 0 && tie >= 0; tie = a->ties.data[tie].next) {
-        unsigned state = a->ties.data[tie].state & (VN_GHOST | VN_OUSTED);
-        if (a->ties.data[tie].node == node && state != VN_GHOST) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static vn_status welcome(vn_attractors *a, const vn_network *network, int32_t i, const double s[3],
-                         int32_t node) {
+                         const vn_keyed *news) {
     double u[3], p[3];
     vn_lune lune;
-    int32_t parent = network->parent.data[node];
+    int32_t node = news->value;
     vn_network_position(network, node, u);
     set_lune(&lune, s, u);
-    if (was_member(a, i, parent)) {
-        vn_network_position(network, parent, p);
+    if (news->key & OF_MEMBER) {
+        vn_network_position(network, network->parent.data[node], p);
         narrow_lune(&lune, p);
     }
     int32_t between = find_in_lune(network, &lune);
@@ -539,9 +531,12 @@ static vn_status welcome(vn_attractors *a, const vn_network *network, int32_t i,
     return is_tie(a, i, node) ? VN_OK : add_tie(a, network, i, node, vn_distance2(s, u));
 }
 
-static void settle_ousted(vn_attractors *a, int32_t i) {
-    for (int32_t tie = a->first_tie.data[i]; tie >= 0; tie = a->ties.data[tie].next) {
-        a->ties.data[tie].state &= (uint8_t)~VN_OUSTED;
+// Asked before any of them drives another one out.
+static void mark_children_of_members(const vn_attractors *a, const vn_network *network, int32_t i,
+                                     vn_keyed *news, int32_t count) {
+    for (int32_t k = 0; k < count; k++) {
+        int32_t parent = network->parent.data[news[k].value];
+        news[k].key |= parent >= 0 && is_tie(a, i, parent) ? OF_MEMBER : 0;
     }
 }
 
@@ -552,14 +547,14 @@ static vn_status show_group(vn_attractors *a, const vn_network *network, vn_keye
         return vn_array_push(&a->outdated, i);
     }
     vn_attractors_place(a, i, s);
+    mark_children_of_members(a, network, i, news, count);
     push_in(a, network, i, s, news, count);
     vn_status status = VN_OK;
     for (int32_t k = 0; k < count && status == VN_OK; k++) {
         if (news[k].value >= 0 && !is_excluded_by_new(network, s, news, count, k)) {
-            status = welcome(a, network, i, s, news[k].value);
+            status = welcome(a, network, i, s, &news[k]);
         }
     }
-    settle_ousted(a, i);
     return status;
 }
 
