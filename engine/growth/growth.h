@@ -59,6 +59,18 @@ void vn_growth_lowest_point(const vn_rings *rings, double origin[3]);
 void vn_growth_destroy(vn_domain *domain);
 bool vn_growth_is_grown_domain(const vn_domain *domain);
 
+/// Rows of vn_growth_def.
+#define VN_GROWTH_LENGTH_ROW(name, field, doc)                                                               \
+    {                                                                                                        \
+        name, VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, field), 0, 1e150, "length", NULL,  \
+            doc                                                                                              \
+    }
+#define VN_GROWTH_TO                                                                                         \
+    VN_GROWTH_LENGTH_ROW("to", to,                                                                           \
+                         "its length when grown; left out: the domain's own length, its extent along y")
+#define VN_GROWTH_STEP                                                                                       \
+    VN_GROWTH_LENGTH_ROW("step", step, "the length that each step adds; left out: a hundredth of to - from")
+
 /// Set from, to and step, with their defaults, for a growth that is called @p name in errors.
 vn_status vn_growth_set_lengths(vn_growth *growth, const vn_growth_def *def);
 

@@ -9,12 +9,11 @@ static const vn_field isogonic_fields[] = {
      "the shape of the blade, at any size"},
     {"origin", VN_POINT, VN_OPTIONAL, offsetof(vn_growth_def, origin), -VN_HUGE, VN_HUGE, "length", NULL,
      "the petiole, about which the shape is scaled to `from`; left out: the lowest point of the outline"},
-    {"from", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, from), 0, 1e150, "length", NULL,
-     "the blade's length at first, and that of its shape in the simulation; left out: a twentieth of `to`"},
-    {"to", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, to), 0, 1e150, "length", NULL,
-     "its length when grown; left out: the domain's own length, its extent along y"},
-    {"step", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, step), 0, 1e150, "length", NULL,
-     "the length that each step adds; left out: a hundredth of to - from"},
+    VN_GROWTH_LENGTH_ROW("from", from,
+                         "the blade's length at first, and that of its shape in the simulation; left "
+                         "out: a twentieth of `to`"),
+    VN_GROWTH_TO,
+    VN_GROWTH_STEP,
     {"split", VN_F64, 0, offsetof(vn_growth_def, split), 0, 1e150, "length", NULL,
      "edges longer than this times the unit are split; 0: none, older edges stretch"},
 };

@@ -13,12 +13,9 @@ static const vn_field marginal_fields[] = {
      "the shape of the blade"},
     {"origin", VN_POINT, VN_OPTIONAL, offsetof(vn_growth_def, origin), -VN_HUGE, VN_HUGE, "length", NULL,
      "the petiole, about which the margin is scaled; left out: the lowest point of the outline"},
-    {"from", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, from), 0, 1e150, "length", NULL,
-     "the blade's length at first; left out: a twentieth of `to`"},
-    {"to", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, to), 0, 1e150, "length", NULL,
-     "its length when grown; left out: the domain's own length, its extent along y"},
-    {"step", VN_F64, VN_ABOVE_MIN | VN_OPTIONAL, offsetof(vn_growth_def, step), 0, 1e150, "length", NULL,
-     "the length that each step adds; left out: a hundredth of to - from"},
+    VN_GROWTH_LENGTH_ROW("from", from, "the blade's length at first; left out: a twentieth of `to`"),
+    VN_GROWTH_TO,
+    VN_GROWTH_STEP,
 };
 const vn_schema vn_marginal_schema = VN_SCHEMA(
     "marginal", "A blade of which only the margin moves (Runions §3.3)", marginal_fields, marginal_default);

@@ -3,6 +3,7 @@
 local venule = ...
 
 local options = require "venule.options"
+local veinlets = require "venule.veinlet_phase"
 
 local rows = {
   {"domain", nil, type = "userdata", required = true, doc = "a blade that grows (venule.growth), or a domain that stays"},
@@ -55,7 +56,7 @@ end
 local function venation(given)
   local o = options.read("venation", rows, given, 2)
   o.vein_distance = o.vein_distance or o.birth_distance
-  o.veinlets = o.veinlets and options.read("venation.veinlets", venule.veinlets_options, o.veinlets, 2)
+  o.veinlets = o.veinlets and options.read("venation.veinlets", veinlets.rows, o.veinlets, 2)
   local blade = as_growth(o.domain)
   o.vein_steps = o.vein_steps or keep_pace(blade, o.segment_length)
   if not o.birth_distance and blade.grown then
@@ -113,7 +114,7 @@ function Venation:step()
   local added = 0
   for _ = 1, o.vein_steps do added = added + self:vein_step() end
   self.done = self:is_done(growing, added, accepted)
-  if self.done and o.veinlets then self.veinlets = venule.finish_veinlets(o.veinlets, self) end
+  if self.done and o.veinlets then self.veinlets = veinlets.grow(o.veinlets, self.blade.unit, self.network, self.blade, o.rng) end
   return not self.done
 end
 
