@@ -32,11 +32,11 @@ end
 
 -- A toothed blade with one lobe: two blades about one petiole.
 local function with_lobe()
-  local turn, lobe = math.rad(-52), leaf.outline("toothed", {length = 0.5, width = 0.2, base = "cuneate", teeth = {{18, 0.012, 0.6}}})
+  local turn, lobe = math.rad(-46), leaf.outline("toothed", {length = 0.46, width = 0.2, widest = 0.6, tip = "rounded", base = "cuneate", teeth = {{12, 0.014, 0.7}}})
   for i, p in ipairs(lobe) do
     lobe[i] = {p[1] * math.cos(turn) - p[2] * math.sin(turn), p[1] * math.sin(turn) + p[2] * math.cos(turn)}
   end
-  return leaf.toothed {width = 0.5, teeth = {{28, 0.009, 0.6}}} + venule.domain.polygon(lobe)
+  return leaf.toothed {width = 0.52, tip = "acute", base = "cuneate", widest = 0.42, teeth = {{24, 0.008, 0.75}}} + venule.domain.polygon(lobe)
 end
 
 local ovate = leaf.entire {width = 0.8, widest = 0.32, tip = "acute"}
@@ -45,12 +45,12 @@ local rows = {
   ["search-kill-distance"] = {"closed", 10, 10, marginal(270, 1600, 8), 600, ovate},   -- d_k is what varies
   ["search-density"] = {"closed", 1, 10, marginal(270, 1600, 8), 300, ovate},          -- ρ is what varies
   ["slow-marginal"] = {"open", 40, 1, slow(4500, 112000, 34), 300, ovate},             -- "similar to Figure 9b"
-  ginkgo = {"open", 100, 1, slow(10, 50000, 15), 300, leaf.fan {}, midvein = 0.006},   -- "rounded, tangentially expanding"
+  ginkgo = {"open", 100, 1, slow(10, 50000, 15), 300, leaf.fan {spread = 120, notch = 0.05, wave = 0.008}, midvein = 0.006}, -- "rounded, tangentially expanding"
   alchemilla = {"open", 10, 1, marginal(3200, 4500, 9), 200, leaf.reniform {teeth = {{46, 0.012, 0.6}}}},
   sweetgum = {"open", 1, 1, marginal(1200, 6700, 7), 200, leaf.digitate {}},           -- five pointed lobes
   toothed = {"closed", 1, 10, marginal(6600, 26000, 40), 10, with_lobe()},             -- "a toothed leaf with a lobe"
-  tertiary = {"closed", 1, 1, marginal(3500, 24000, 60), 20, leaf.entire {width = 0.6}}, -- "the entire leaf"
-  orchid = {"closed", 1, 10, none, 600, leaf.orchid {length = 6500}},
+  tertiary = {"closed", 1, 1, marginal(3500, 24000, 60), 20, leaf.entire {width = 0.6}, draw = 3}, -- "the entire leaf"
+  orchid = {"closed", 1, 10, none, 600, leaf.orchid {length = 6500}, midvein = 0.005},
   reticulate = {"closed", 1, 15, isogonic(225, 4500, 40.5), 200, leaf.entire {width = 0.45}},
   cherry = {"open", 30, 1, marginal(1100, 5500, 11), 40, leaf.toothed {width = 0.5, widest = 0.5, base = "cuneate", teeth = {{26, 0.012, 0.65}}}},
   grass = {"closed", 1, 30, none, 100, leaf.linear {length = 13000, width = 600, taper = 0.05}, seeds = 20,
@@ -70,6 +70,8 @@ local p = venule.param {
   {"darts", 0, min = 0, max = 1e5, unit = "darts/length² · 1e-6", help = "sources that are tried per area; 0: the table's"},
   {"neighborhood", "relative", choices = {"relative", "urquhart"}, help = "of closed patterns; Figure 18 compares them"},
   {"midvein", 0, min = 0, max = 0.1, help = "its width, of the blade's length; 0: the row's, or 0.01"},
+  {"from", 0, min = 0, max = 0.99, help = "where the picture begins, of the blade's length; 0: the row's, or all of it"},
+  {"to", 1, min = 0.01, max = 1, help = "where it ends"},
   {"size", 1000, min = 50, max = 8000, unit = "pixels", help = "of the picture's longer side"},
 }
 
@@ -96,8 +98,9 @@ veins:murray {exponent = exponent, tip_radius = 1}
 veins:murray {exponent = exponent, tip_radius = midvein / 2 * length / veins:measure().max_radius}
 veins:orders "hickey"
 
-if row.part then -- of the blade's length is in the picture
-  bounds = {min = {bounds.min[1], row.part[1] * length}, max = {bounds.max[1], row.part[2] * length}}
+local part = (p.from > 0 or p.to < 1) and {p.from, p.to} or row.part
+if part then -- of the blade's length is in the picture
+  bounds = {min = {bounds.min[1], part[1] * length}, max = {bounds.max[1], part[2] * length}}
 end
 local is_wide = bounds.max[1] - bounds.min[1] > bounds.max[2] - bounds.min[2]
 

@@ -149,7 +149,7 @@ local function ginkgo(o)
   local half = math.rad(o.spread) / 2
   return polar(o, PI / 2 - half, function(angle)
     local turned = (PI / 2 - angle) / half
-    local body = (1 - turned ^ 7) ^ 0.5
+    local body = (1 - turned ^ 20) ^ 0.5
     local wave = 1 + o.wave * math.cos(9 * PI * turned) * (1 - turned)
     return body * wave * (1 - o.notch * math.exp(-(turned / 0.06) ^ 2))
   end)
