@@ -416,7 +416,7 @@ function venule.vessels(options) end
 ---@field title? string # above the plot
 ---@field x? table # the axis to the right: {label=, log=, min=, max=}
 ---@field y? table # the axis upwards: {label=, log=, min=, max=}
----@field series table # a list of what is drawn: {x=, y=, deviation=, band=, label=, color=, marks=, line=}
+---@field series table # a list of what is drawn: {x=, y=, deviation=, below=, band=, label=, color=, marks=, line=}
 ---@field background? string # a colour, or "none"
 ---@field text_size? number # of the numbers at the axes; labels are as large
 
@@ -459,6 +459,7 @@ function venule.plot(options) end
 
 ---@class (exact) venule.vessels.stage.Options
 ---@field steps integer # how many
+---@field domain? any # where its drains fall and vessels grow, in the tissue's coordinates: a surface first, say, and then the inside; left out: the tissue
 ---@field arteries? table # options that are to hold for arteries alone
 ---@field veins? table # options that are to hold for veins alone
 ---@field perception_distance? number # δ: drains farther than this draw no vessel
@@ -487,6 +488,7 @@ function venule.plot(options) end
 ---@field x any # a list of numbers; a point that has one that is not finite is left out, and breaks the line
 ---@field y any # a list of as many numbers
 ---@field deviation? any # a list of as many, or one number: y is drawn with so much above and below it
+---@field below? any # the deviations below, where these are not those above
 ---@field band? boolean # deviations as a band instead of bars
 ---@field label? string # what it is, in the legend
 ---@field color? string # left out: one that the others have not
@@ -658,6 +660,7 @@ function venule.leaf.base(blade, n) end
 ---@field volume number # Σ π r² ℓ
 ---@field inflow number
 ---@field darts integer # tries for terminals
+---@field begun_anew integer # times that a small tree stood in its own way
 ---@field redrawn integer # terminals that could not be connected
 ---@field tried integer # candidates whose volume was computed
 ---@field collapsed integer # whose bifurcation point ran into an end
