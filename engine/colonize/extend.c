@@ -4,7 +4,7 @@
 #include "colonize/extend.h"
 #include "domain/domain.h"
 
-static const vn_extend_def extend_default = {.length = 1};
+static const vn_extend_def extend_default = {.length = 1, .gap = -1};
 
 static const vn_field extend_fields[] = {
     {"length", VN_F64, VN_REQUIRED | VN_ABOVE_MIN, offsetof(vn_extend_def, length), 0, 1e150, "length", NULL,
@@ -22,6 +22,14 @@ static const vn_field extend_fields[] = {
      NULL,
      "φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none "
      "does"},
+    {"avoid", VN_MIXED, 0, offsetof(vn_extend_def, avoid), 0, 0, "",
+     "a network, or a list {a, b, …} of up to 16",
+     "networks whose edges this one's keep clear of, as round tubes, now and as they grow thicker; those "
+     "that "
+     "grow by turns must each avoid the other"},
+    {"gap", VN_F64, VN_OPTIONAL, offsetof(vn_extend_def, gap), 0, 1e150, "length", NULL,
+     "what a new edge leaves free beside those to be avoided, for both to grow thicker; left out: a quarter "
+     "of `length`"},
 };
 const vn_schema vn_extend_schema =
     VN_SCHEMA("extend", "Grow the influenced nodes by one segment", extend_fields, extend_default);
@@ -104,6 +112,10 @@ bool vn_stays_inside(const vn_extension *e, int32_t node, const double p[3]) {
     return domain == NULL || (vn_domain_contains(domain, p) && vn_domain_sees(domain, q, p));
 }
 
+bool vn_keeps_clear(const vn_extension *e, int32_t node, const double p[3], bool forks) {
+    return e->avoidance == NULL || vn_avoid_allows(e->avoidance, node, p, forks);
+}
+
 void vn_sum_directions(const vn_extension *e, double sum[3]) {
     memset(sum, 0, 3 * sizeof *sum);
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
@@ -131,7 +143,8 @@ static bool may_step_to(const vn_extension *e, int32_t node, int32_t attractor, 
     double n[3];
     double distance = vn_direction_to(e, node, attractor, n);
     vn_step_from(e, node, n, p);
-    return e->def->length < 2 * distance && !vn_has_child_toward(e, node, p) && vn_stays_inside(e, node, p);
+    return e->def->length < 2 * distance && !vn_has_child_toward(e, node, p) && vn_stays_inside(e, node, p) &&
+           vn_keeps_clear(e, node, p, false);
 }
 
 // The place toward the first-ranked attractor that a step can be made to.
@@ -180,10 +193,15 @@ static void remember_sight(vn_attractors *a, const vn_domain *domain) {
     }
 }
 
+static vn_status add_edge(const vn_extension *e, int32_t node, const double p[3]) {
+    VN_TRY(vn_network_add(e->network, node, p, NULL));
+    return e->avoidance != NULL ? vn_avoid_grown(e->avoidance, node) : VN_OK;
+}
+
 vn_status vn_grow_edge(const vn_extension *e, int32_t node, const double p[3]) {
     vn_outcome outcome;
     VN_TRY(vn_meet(e->network, node, p, -1, e->def, &outcome));
-    return outcome == VN_CLEAR ? vn_network_add(e->network, node, p, NULL) : VN_OK;
+    return outcome == VN_CLEAR ? add_edge(e, node, p) : VN_OK;
 }
 
 static vn_status step_toward(const vn_extension *e, int32_t node, int32_t attractor) {
@@ -300,6 +318,7 @@ static vn_status mind_waiting(const vn_extension *e, int32_t first) {
 // An attractor that no vein comes nearer to, however often it pulls, is let go, or some run would never end.
 static void lose_patience(const vn_extension *e) {
     vn_attractors *a = e->a;
+    bool barred = e->avoidance != NULL && e->avoidance->refused;
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         int32_t i = pair->value;
         double distance = sqrt(a->near2.data[i]);
@@ -312,7 +331,8 @@ static void lose_patience(const vn_extension *e) {
             a->best.data[i] = (float)distance;
             a->idle.data[i] &= counted ? VN_HIDDEN | VN_TURNS : 0xFF;
         } else if ((++a->idle.data[i] & VN_IDLE) > PATIENCE) {
-            a->retired.circled++;
+            a->retired.barred += barred;
+            a->retired.circled += !barred;
             vn_attractors_remove(a, i);
         }
     }
@@ -370,7 +390,7 @@ static vn_status grow_or_stop(const vn_extension *e, double p[3]) {
     if (stopped && e->a->mode == VN_NEAREST) {
         retire_barred(e);
     }
-    return outcome == VN_CLEAR ? vn_network_add(e->network, e->node, p, NULL) : VN_OK;
+    return outcome == VN_CLEAR ? add_edge(e, e->node, p) : VN_OK;
 }
 
 // In the closed modes an attractor that the border hides waits for other veins.
@@ -427,6 +447,7 @@ static void remember_extension(vn_attractors *a, const vn_extend_def *def) {
     vn_domain_release(a->last.domain);
     a->last = *def;
     a->last.domain = held;
+    a->last.avoid_count = 0; // they are not held
 }
 
 // Whether some attractor is so far off that a step does not lead past it. Where each draws several veins, two
@@ -452,7 +473,7 @@ static vn_status grow_node(const vn_extension *e) {
     vn_step_from(e, e->node, n, p);
     bool free = has_mean && leads_somewhere(e) && !vn_has_child_toward(e, e->node, p);
     bool inside = !free || vn_stays_inside(e, e->node, p);
-    if ((free && inside) || step_to_one(e, p)) {
+    if ((free && inside && vn_keeps_clear(e, e->node, p, false)) || step_to_one(e, p)) {
         VN_TRY(grow_or_stop(e, p));
     } else if (e->a->mode != VN_NEAREST) {
         note_hidden(e, inside);
@@ -490,6 +511,9 @@ static vn_status grow_nodes(vn_extension *e) {
         e->node = (int32_t)pairs[begin].key;
         e->begin = pairs + begin;
         e->end = pairs + end;
+        if (e->avoidance != NULL) {
+            e->avoidance->refused = false;
+        }
         VN_TRY(vessels ? grow_vessel(e) : grow_node(e));
     }
     return VN_OK;
@@ -509,6 +533,12 @@ static vn_status check_extend(const vn_network *network, const vn_influence *inf
         return vn_fail(VN_INVALID, "extend.%s is for vessels: give the influence perception = {angle=}",
                        def->bifurcate > 0 ? "bifurcate" : "bias");
     }
+    if (def->gap >= 0 && def->avoid_count == 0) {
+        return vn_fail(VN_INVALID, "extend.gap is kept from other networks: name them in extend.avoid");
+    }
+    if (def->avoid_count > 0 && influence->attractors->mode != VN_NEAREST) {
+        return vn_fail(VN_INVALID, "extend.avoid goes with influence.mode = \"nearest\" alone");
+    }
     if (def->domain != NULL && vn_domain_dim(def->domain) != network->dim) {
         return vn_fail(VN_INVALID, "extend.domain has %d dimensions, the network %d",
                        vn_domain_dim(def->domain), network->dim);
@@ -523,6 +553,11 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     VN_TRY(check_extend(network, influence, def));
     vn_extension e = {.network = network, .influence = influence, .a = influence->attractors, .def = def};
     VN_TRY(check_roots(&e));
+    vn_avoidance avoidance;
+    if (def->avoid_count > 0) {
+        VN_TRY(vn_avoid_begin(&avoidance, network, def));
+        e.avoidance = &avoidance;
+    }
     remember_extension(e.a, def);
     int32_t joins = network->joins.count;
     network->step++;
@@ -532,6 +567,7 @@ vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_exten
     if (e.a->mode != VN_NEAREST) {
         count_idle_steps(&e);
     }
+    status = status == VN_OK && e.avoidance != NULL ? vn_avoid_end(e.avoidance) : status;
     *added = status == VN_OK ? network->x.count - *first + network->joins.count - joins : 0;
     return status;
 }

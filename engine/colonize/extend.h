@@ -4,6 +4,7 @@
 #define VN_COLONIZE_EXTEND_H
 
 #include "colonize/attractors.h"
+#include "colonize/avoid.h"
 
 typedef struct vn_extension {
     vn_network *network;
@@ -12,6 +13,7 @@ typedef struct vn_extension {
     const vn_extend_def *def;
     int32_t node;                ///< the node that is to grow
     const vn_keyed *begin, *end; ///< its pairs; their values are attractors
+    vn_avoidance *avoidance;     ///< NULL: nothing is avoided
 } vn_extension;
 
 /// The unit vector @p n from a node to an attractor (0 where they coincide), and how far that is.
@@ -25,6 +27,8 @@ void vn_step_from(const vn_extension *e, int32_t node, const double n[3], double
 bool vn_has_child_toward(const vn_extension *e, int32_t node, const double p[3]);
 /// Whether the edge from @p node to @p p stays inside the domain.
 bool vn_stays_inside(const vn_extension *e, int32_t node, const double p[3]);
+/// Whether that edge keeps clear of the networks to be avoided; @p forks: the node gets two.
+bool vn_keeps_clear(const vn_extension *e, int32_t node, const double p[3], bool forks);
 /// Add the edge from @p node to @p p, unless it meets another one that it must not cross.
 vn_status vn_grow_edge(const vn_extension *e, int32_t node, const double p[3]);
 

@@ -88,14 +88,16 @@ static bool biased(const sprout *s, const double sum[3], double g[3]) {
     return normalise(g, NOTHING);
 }
 
-static bool is_free(const sprout *s, const double p[3]) {
-    return !vn_has_child_toward(s->e, s->e->node, p) && vn_stays_inside(s->e, s->e->node, p);
+static bool is_free(const sprout *s, const double p[3], bool forks) {
+    const vn_extension *e = s->e;
+    return !vn_has_child_toward(e, e->node, p) && vn_stays_inside(e, e->node, p) &&
+           vn_keeps_clear(e, e->node, p, forks);
 }
 
 // The slack is what rounding does to a mean of directions on the zone's own border.
 static bool leads_to(const sprout *s, const double g[3], double p[3]) {
     vn_step_from(s->e, s->e->node, g, p);
-    return vn_zone_holds(&s->zone, g, 1e-12) && is_free(s, p);
+    return vn_zone_holds(&s->zone, g, 1e-12) && is_free(s, p, false);
 }
 
 // Toward the first-ranked attractor that a step can be made to. A single one is always in the zone, and so is
@@ -196,7 +198,7 @@ static bool fork(const sprout *s, double p[2][3]) {
         }
         vn_step_from(s->e, s->e->node, g, p[i]);
     }
-    return is_free(s, p[0]) && is_free(s, p[1]);
+    return is_free(s, p[0], true) && is_free(s, p[1], true);
 }
 
 static bool may_fork(const sprout *s) {

@@ -65,8 +65,8 @@ void vn_network_settle(const vn_network *constant) {
 
 vn_status vn_network_murray(vn_network *network, const vn_murray_def *def) {
     VN_TRY(vn_check_def(&vn_murray_schema, def));
-    if (network->murray && network->law.exponent == def->exponent && network->law.veinlets == def->veinlets) {
-        network->law.tip_radius = def->tip_radius; // the tips' part in growing tissue: no count changes
+    if (network->murray && def->exponent == network->law.exponent && def->veinlets == network->law.veinlets) {
+        network->law.tip_radius = def->tip_radius; // tissue growth sets it anew each step: tips stay counted
         network->version++;
         return VN_OK;
     }

@@ -1,4 +1,4 @@
-#include "network/network.h"
+#include "network/berth.h"
 
 #include "base/memory.h"
 
@@ -64,6 +64,7 @@ void vn_network_destroy(vn_network *network) {
     vn_point_grid_free(&network->grid);
     vn_point_tree_free(&network->tree_of_points);
     vn_edge_grid_free(&network->edges);
+    vn_berth_free(&network->berth);
     vn_delaunay_destroy(network->delaunay);
     vn_free_text(network->unit);
     VN_DELETE(network);

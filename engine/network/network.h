@@ -3,6 +3,7 @@
 #define VN_NETWORK_NETWORK_H
 
 #include "base/schema.h"
+#include "space/box_grid.h"
 #include "space/delaunay.h"
 #include "space/edge_grid.h"
 #include "space/point_grid.h"
@@ -35,6 +36,29 @@ typedef struct vn_heading {
     int32_t root;
     double direction[3];
 } vn_heading;
+
+/// Whom a network has asked for room, and when.
+typedef struct vn_asked {
+    uint64_t serial, epoch;
+} vn_asked;
+
+/// How networks keep clear of each other (berth.h); empty until they are asked to: 13 bytes a node, and the
+/// grid.
+typedef struct vn_berth {
+    vn_box_grid grid;
+    VN_ARRAY(double) room;   ///< the largest radius that an edge may have without asking
+    VN_ARRAY(int32_t) most;  ///< as many tips; Murray only
+    VN_ARRAY(uint8_t) level; ///< how far around its axis an edge is listed
+    VN_ARRAY(vn_asked) asked;
+    int32_t items;  ///< that the grid's cells were chosen for
+    bool ready;     ///< all this holds, or did before what happened since
+    bool rooms;     ///< some may be more than a radius
+    uint64_t epoch; ///< changes when something did that has not asked
+    uint64_t moved, version;
+    int32_t joins;
+    bool simple; ///< radii follow from numbers of tips alone, by this law
+    vn_murray_def law;
+} vn_berth;
 
 /// One entry a node in every column that is in use: 44 bytes a node in 2D with Murray radii.
 struct vn_network {
@@ -85,6 +109,7 @@ struct vn_network {
     uint64_t edges_moved;
     int32_t edge_nodes, edge_joins; ///< how many are listed
     int32_t edge_room;              ///< how many of both the buckets are meant for
+    vn_berth berth;
 };
 
 static inline vn_points vn_network_points(const vn_network *network) {

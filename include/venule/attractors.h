@@ -35,7 +35,8 @@ typedef struct vn_retired {
     int32_t hidden;  ///< no node sees them without leaving the domain
     int32_t circled; ///< veins grew for them many times and came no nearer (segments too long for the kill
                      ///< distance)
-    int32_t barred;  ///< the vein that they drew alone would have crossed another one (VN_MEET_STOP)
+    int32_t barred;  ///< the vein that they drew alone would have crossed another one (VN_MEET_STOP), or
+                     ///< what they drew many times would have come too near to networks to be avoided
 } vn_retired;
 VN_API vn_retired vn_attractors_retired(const vn_attractors *attractors);
 /// Those that wait beyond a marginal blade's margin.
@@ -121,6 +122,7 @@ VN_API int32_t vn_influence_node(const vn_influence *influence, int32_t pair);
 VN_API bool vn_influence_current(const vn_influence *influence);
 
 enum { VN_MEET_CROSS, VN_MEET_JOIN, VN_MEET_STOP };
+enum { VN_MOST_AVOIDED = 16 };
 
 typedef struct vn_extend_def {
     double length;     ///< D, the length of a vein segment; > 0; default 1
@@ -135,6 +137,15 @@ typedef struct vn_extend_def {
                       ///< length 1; default false: against their sum, as printed (READINGS R18)
     double bifurcate; ///< φ, degrees, above 0, at most 180, with perception: a leaf forks symmetrically where
                       ///< its attractors deviate more from their mean direction (R19); 0 (the default): never
+    /// Networks whose edges this one's never touch, each taken as a round tube: an edge is not made that
+    /// would, nor one by which an edge above it would become thick enough to. With mode "nearest", on
+    /// networks without joins and veinlets; not with VN_MEET_JOIN. Networks that grow by turns must each
+    /// avoid the other: one that does not ask may grow into one that does. What overlaps already, or is made
+    /// to (by nodes added or moved, by radii raised), stays so, and keeps clear of the rest.
+    vn_network *avoid[VN_MOST_AVOIDED];
+    int32_t avoid_count;
+    double gap; ///< what a new edge leaves free beside it, beyond both radii, so that both can grow thicker;
+                ///< nearer by, it may start and lead away; default -1: a quarter of `length`
 } vn_extend_def;
 VN_API vn_extend_def vn_extend_def_default(void);
 /// Add a node to each influenced one, in the mean direction of its attractors (Equation 1). Where that

@@ -151,7 +151,7 @@ static const char retired_field[] =
     "retired: {hidden: integer, circled: integer, barred: integer} | how many "
     "were given up: hidden, as no node sees them without leaving the domain; "
     "circled, as veins grew for them and came no nearer; barred, as the vein "
-    "would have crossed another one";
+    "would have crossed another one, or come too near to a network to be avoided";
 static const char *const fields[] = {"x: number[] | the attractors' coordinates",
                                      "y: number[] | the attractors' coordinates",
                                      "z: number[] | the attractors' coordinates; 0 in 2D",

@@ -235,10 +235,39 @@ static void remember_stall(lua_State *L, const vn_network *network, const vn_inf
     lua_setfield(L, LUA_REGISTRYINDEX, "venule.stalled");
 }
 
+// The network, or the list of them, that the options at @p index name.
+static void read_avoided(lua_State *L, int index, vn_extend_def *def) {
+    int type = vnl_raw_field(L, index, "avoid"), list = lua_gettop(L);
+    lua_Unsigned count = type == LUA_TTABLE ? lua_rawlen(L, list) : type != LUA_TNIL;
+    if (count > VN_MOST_AVOIDED) {
+        vnl_fail(L, "extend.avoid: a list of at most %d networks expected", VN_MOST_AVOIDED);
+    }
+    if (type == LUA_TTABLE && count == 0) {
+        lua_pushnil(L);
+        if (lua_next(L, list) != 0) {
+            vnl_fail(L,
+                     "extend.avoid: a network or a list {a, b, …} of them expected, not a table with names");
+        }
+    }
+    for (lua_Unsigned i = 0; i < count; i++) {
+        if (type == LUA_TTABLE) {
+            lua_rawgeti(L, list, (lua_Integer)i + 1);
+        }
+        if (vnl_test(L, -1, &vnl_network_class) == NULL && lua_type(L, -1) != LUA_TUSERDATA) {
+            vnl_fail(L, "extend.avoid: a network or a list {a, b, …} of them expected, got a %s",
+                     luaL_typename(L, -1));
+        }
+        def->avoid[i] = vnl_check(L, -1, &vnl_network_class);
+    }
+    def->avoid_count = (int32_t)count;
+    lua_settop(L, list - 1);
+}
+
 static int network_extend(lua_State *L) {
     vn_extend_def def;
     int32_t added, first;
     vnl_read_options(L, 3, &vn_extend_schema, &def);
+    read_avoided(L, 3, &def);
     vn_network *network = check_network(L);
     vn_influence *influence = vnl_check_influence(L, 2);
     vnl_try(L, vn_extend(network, influence, &def, &added, &first));
@@ -275,7 +304,8 @@ static const vnl_function methods[] = {
      "Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation "
      "1). How many "
      "nodes were added, and the first of them; when it adds none and nothing else changes, no later call "
-     "will.",
+     "will. `avoid = other` keeps this network clear of others for good; those that grow by turns must each "
+     "avoid the other.",
      &vn_extend_schema},
     {"children", network_children, "(node: integer): integer[]", NULL,
      "The children of a node, in the order of birth.", NULL},
