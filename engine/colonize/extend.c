@@ -533,7 +533,7 @@ static vn_status check_extend(const vn_network *network, const vn_influence *inf
         return vn_fail(VN_INVALID, "extend.%s is for vessels: give the influence perception = {angle=}",
                        def->bifurcate > 0 ? "bifurcate" : "bias");
     }
-    if (def->gap >= 0 && def->avoid_count == 0) {
+    if (def->gap > 0 && def->avoid_count == 0) {
         return vn_fail(VN_INVALID, "extend.gap is kept from other networks: name them in extend.avoid");
     }
     if (def->avoid_count > 0 && influence->attractors->mode != VN_NEAREST) {

@@ -49,8 +49,8 @@ local function grow(avoid)
   local disk, rng = venule.domain.disk {radius = 0.5}, venule.rng(4)
   local a, v = tree(2, -0.5, 0), tree(2, 0.5, 0)
   for _ = 1, 40 do
-    step(a, disk, rng, avoid and v.net)
-    step(v, disk, rng, avoid and {a.net})
+    step(a, disk, rng, avoid and v.net or nil)
+    step(v, disk, rng, avoid and {a.net} or nil)
   end
   return a, v
 end
