@@ -22,16 +22,16 @@ typedef struct vn_avoidance {
 } vn_avoidance;
 
 /// Check the options, and bring what all know of their edges up to date.
-vn_status vn_avoid_begin(vn_avoidance *avoidance, vn_network *network, const vn_extend_def *def);
+vn_status vn_avoid_begin(vn_avoidance *v, vn_network *network, const vn_extend_def *def);
 
 /// Whether an edge from @p node to @p p would keep clear of others, and with it all that grow thicker for it;
 /// @p forks: the node gets another child besides. Notes a refusal.
-bool vn_avoid_allows(vn_avoidance *avoidance, int32_t node, const double p[3], bool forks);
+bool vn_avoid_allows(vn_avoidance *v, int32_t node, const double p[3], bool forks);
 
 /// The newest node is a child of @p node: give it room, and those that have grown thicker.
-vn_status vn_avoid_grown(vn_avoidance *avoidance, int32_t node);
+vn_status vn_avoid_grown(vn_avoidance *v, int32_t node);
 
 /// VN_INVALID when a root was found buried.
-vn_status vn_avoid_end(const vn_avoidance *avoidance);
+vn_status vn_avoid_end(const vn_avoidance *v);
 
 #endif

@@ -155,7 +155,10 @@ VN_API vn_extend_def vn_extend_def_default(void);
 /// retired. Under perception a leaf grows one segment or forks in two, an inter-node gets one lateral, and a
 /// node that cannot grow into its zone without leaving the domain lets its attractors idle. @p added gets how
 /// many nodes and joins there are more, @p first the index of the first such node. Counts the network's step
-/// on. When it adds none, and neither attractors nor domain change, no later call will; but where attractors
+/// on. A node whose step would come too near to networks to be avoided tries each attractor alone too; those
+/// that nothing comes nearer to are given up after two dozen calls. VN_INVALID for a root without children
+/// within a tube of such a network: nothing can grow from there.
+/// When it adds none, and neither attractors nor domain change, no later call will; but where attractors
 /// influence several nodes each, some may stand in each other's way until, after two dozen calls, they are
 /// given up.
 VN_API vn_status vn_extend(vn_network *network, vn_influence *influence, const vn_extend_def *def,

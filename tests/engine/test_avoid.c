@@ -302,7 +302,7 @@ static int32_t nodes_of(const grove *g) {
 static void test_random_groves(void **state) {
     (void)state;
     int32_t crossed = 0, apart = 0, nodes[2] = {0, 0};
-    for (uint64_t seed = 1; seed <= 24; seed++) {
+    for (uint64_t seed = 1; seed <= 16; seed++) {
         for (int avoids = 0; avoids < 2; avoids++) {
             grove g = grove_of(seed, avoids > 0);
             for (int step = 0; step < 40; step++) {
@@ -419,7 +419,7 @@ static bool find_clear(grove *g, int i, double apart, double p[3]) {
 
 static void add_by_hand(grove *g, int i) {
     vn_network *net = g->net[i];
-    double p[3], step = g->grow.length;
+    double p[3] = {0}, step = g->grow.length;
     int32_t parent = (int32_t)whole(&g->rng, 0, vn_network_count(net) - 1);
     vn_network_position(net, parent, p);
     for (int k = 0; k < g->dim; k++) {
@@ -491,7 +491,7 @@ static int32_t crossed_of(const grove *g, int i) {
 static void test_meddling(void **state) {
     (void)state;
     int32_t grown = 0;
-    for (uint64_t seed = 1; seed <= 60; seed++) {
+    for (uint64_t seed = 1; seed <= 48; seed++) {
         grove g = grove_of(seed, true);
         g.rescale = false;
         for (int step = 0; step < 25; step++) {
@@ -508,7 +508,7 @@ static void test_meddling(void **state) {
         }
         end_grove(&g);
     }
-    assert_true(grown > 2000);
+    assert_true(grown > 1500);
 }
 
 // Claims that reach farther than a trunk is thick hold no longer where a hand has put something else.
