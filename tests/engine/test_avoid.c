@@ -191,7 +191,7 @@ static grove grove_of(uint64_t seed, bool avoids) {
     if (seed % 2 == 0) {
         g.grow.bias = uniform(&g.rng, 0, 0.7);
         g.grow.bias_mean = true;
-        g.grow.bifurcate = whole(&g.rng, 0, 1) > 0 ? uniform(&g.rng, 0, 40) : -1;
+        g.grow.bifurcate = whole(&g.rng, 0, 1) > 0 ? uniform(&g.rng, 0.1, 40) : 0;
     }
     g.growth = whole(&g.rng, 0, 2) > 0 ? 0.03 : 0;
     g.rescale = g.growth > 0 && whole(&g.rng, 0, 1) > 0;
