@@ -22,12 +22,16 @@ static void place(const vn_svg_pen *pen, const double p[2], double q[2]) {
     q[1] = m->b * p[0] + m->d * p[1] + m->f;
 }
 
+static int64_t points_held(const vn_svg_pen *pen) {
+    return pen->rings != NULL ? pen->rings->x.count : pen->paths != NULL ? pen->paths->xyz.count / 3 : 0;
+}
+
 static vn_status check_limits(vn_svg_pen *pen) {
     pen->points++;
     if (pen->points % POINTS_BETWEEN_POLLS == 0) {
         VN_TRY(vn_poll());
     }
-    if (pen->points > MOST_POINTS || (pen->rings != NULL && pen->rings->x.count >= MOST_POINTS)) {
+    if (pen->points > MOST_POINTS || points_held(pen) >= MOST_POINTS) {
         return vn_fail(VN_LIMIT, "more than %d points: simplify the drawing, or give a larger tolerance",
                        MOST_POINTS);
     }
@@ -41,6 +45,9 @@ static vn_status put(vn_svg_pen *pen, const double q[2]) {
         pen->min[k] = q[k] < pen->min[k] ? q[k] : pen->min[k];
         pen->max[k] = q[k] > pen->max[k] ? q[k] : pen->max[k];
     }
+    if (pen->paths != NULL) {
+        return vn_paths_draw(pen->paths, (double[3]){q[0], q[1], 0});
+    }
     return pen->rings != NULL ? vn_rings_point(pen->rings, q[0], q[1]) : VN_OK;
 }
 
@@ -52,6 +59,9 @@ static vn_status put_here(vn_svg_pen *pen, double x, double y) {
 }
 
 static vn_status end_ring(vn_svg_pen *pen) {
+    if (pen->paths != NULL) {
+        return vn_paths_lift(pen->paths);
+    }
     return pen->rings != NULL ? vn_rings_close(pen->rings) : VN_OK;
 }
 
@@ -67,6 +77,7 @@ vn_status vn_svg_pen_line(vn_svg_pen *pen, double x, double y) {
 }
 
 vn_status vn_svg_pen_close(vn_svg_pen *pen) {
+    VN_TRY(pen->paths != NULL ? put_here(pen, pen->start[0], pen->start[1]) : VN_OK);
     return vn_svg_pen_move(pen, pen->start[0], pen->start[1]);
 }
 
@@ -96,7 +107,7 @@ vn_status vn_svg_pen_cubic(vn_svg_pen *pen, const double p1[2], const double p2[
     place(pen, p1, p[1]);
     place(pen, p2, p[2]);
     place(pen, p3, p[3]);
-    if (pen->rings == NULL) {
+    if (pen->rings == NULL && pen->paths == NULL) {
         VN_TRY(put(pen, p[1]));
         VN_TRY(put(pen, p[2]));
         return put_here(pen, p3[0], p3[1]);
@@ -400,11 +411,12 @@ vn_status vn_svg_draw_path(vn_svg_pen *pen, const char *data) {
     return end_ring(pen);
 }
 
-vn_status vn_svg_draw_points(vn_svg_pen *pen, const char *data) {
+vn_status vn_svg_draw_points(vn_svg_pen *pen, const char *data, bool closed) {
     path_reader reader = {.pen = pen, .at = data, .end = data + strlen(data)};
     double p[2];
     while (read_point(&reader, p)) {
         VN_TRY(pen->points == 0 ? vn_svg_pen_move(pen, p[0], p[1]) : vn_svg_pen_line(pen, p[0], p[1]));
     }
+    VN_TRY(closed && pen->points > 0 ? vn_svg_pen_close(pen) : VN_OK);
     return end_ring(pen);
 }

@@ -4,12 +4,15 @@
 
 #include "domain/rings.h"
 #include "file/svg_style.h"
+#include "network/paths.h"
 
-/// Draws in an element's own coordinates, into rings in the file's final ones. Subpaths are closed as a
-/// fill does.
+/// Draws in an element's own coordinates, into rings in the file's final ones, whose subpaths are closed as a
+/// fill does; or into paths, whose subpaths stay as open as they are drawn.
 typedef struct vn_svg_pen {
     vn_svg_matrix matrix;
-    vn_rings *rings;  ///< NULL: only the bounds are taken, of curves those of their control points
+    vn_rings
+        *rings; ///< NULL, and no paths: only the bounds are taken, of curves those of their control points
+    vn_paths *paths;  ///< in place of rings, or NULL
     double tolerance; ///< > 0, in final coordinates
     double min[2], max[2];
     double start[2], at[2]; ///< of the subpath and the end of what was drawn, in the element's coordinates
@@ -30,7 +33,7 @@ vn_status vn_svg_pen_close(vn_svg_pen *pen);
 /// Draw the data of a `d` attribute, up to its first error as SVG prescribes. VN_INVALID when not even one
 /// point comes before that.
 vn_status vn_svg_draw_path(vn_svg_pen *pen, const char *data);
-/// Draw the data of a `points` attribute, up to its first error.
-vn_status vn_svg_draw_points(vn_svg_pen *pen, const char *data);
+/// Draw the data of a `points` attribute, up to its first error; @p closed goes back to the first of them.
+vn_status vn_svg_draw_points(vn_svg_pen *pen, const char *data, bool closed);
 
 #endif

@@ -48,6 +48,7 @@ typedef struct svg_outline {
 
 typedef struct svg_reader {
     const vn_svg_def *def;
+    vn_paths *paths; ///< where lines go; NULL: outlines are read
     vn_svg_tree tree;
     vn_svg_sheet sheet;
     vn_rings rings;
@@ -107,7 +108,7 @@ static vn_status draw_outline(svg_reader *reader, int32_t element, const svg_sta
     VN_TRY(status);
     double width = sketch.max[0] - sketch.min[0];
     double height = sketch.max[1] - sketch.min[1];
-    if (!(width > 0) || !(height > 0)) {
+    if (reader->paths != NULL ? !(fmax(width, height) > 0) : !(width > 0) || !(height > 0)) {
         return VN_OK;
     }
     outline->size = fmax(width, height);
@@ -118,8 +119,11 @@ static vn_status draw_outline(svg_reader *reader, int32_t element, const svg_sta
     outline->box_area = width * height;
     outline->tolerance =
         reader->def->tolerance > 0 ? reader->def->tolerance : default_tolerance * outline->size;
-    vn_svg_pen pen = vn_svg_pen_make(&state->matrix, &reader->rings, outline->tolerance);
-    return vn_svg_draw_shape(&pen, &reader->tree, element, &state->viewport);
+    vn_rings *rings = reader->paths == NULL ? &reader->rings : NULL;
+    vn_svg_pen pen = vn_svg_pen_make(&state->matrix, rings, outline->tolerance);
+    pen.paths = reader->paths;
+    VN_TRY(vn_svg_draw_shape(&pen, &reader->tree, element, &state->viewport));
+    return reader->paths != NULL ? vn_paths_lift(reader->paths) : VN_OK;
 }
 
 static vn_status take_shape(svg_reader *reader, int32_t element, const svg_state *state) {
@@ -523,8 +527,9 @@ static vn_status fail_empty_id(const svg_reader *reader, int32_t element) {
                        "%s: \"%.60s\" is not drawn: it is hidden, or a definition that nothing uses", path,
                        id);
     }
-    return vn_fail(VN_INVALID, "%s: \"%.60s\" has no area: name a closed shape, or a group of some", path,
-                   id);
+    return vn_fail(VN_INVALID, "%s: \"%.60s\" has no %s: name a %s, or a group of some", path, id,
+                   reader->paths != NULL ? "length" : "area",
+                   reader->paths != NULL ? "path" : "closed shape");
 }
 
 static vn_status take_named(const svg_reader *reader, vn_rings *out) {
@@ -544,6 +549,20 @@ static vn_status walk_page(svg_reader *reader, const char **unit) {
     vn_status status = walk(reader, 0, -1, &state);
     bool ours = status == VN_INVALID || status == VN_IO || status == VN_LIMIT;
     return ours ? name_file(reader, status) : status;
+}
+
+static vn_status take_lines(const svg_reader *reader) {
+    int32_t element = reader->def->id != NULL ? vn_svg_find(&reader->tree, reader->def->id) : 0;
+    if (element < 0) {
+        return fail_unknown_id(reader);
+    }
+    if (reader->paths->ends.count > 0) {
+        return VN_OK;
+    }
+    return reader->def->id != NULL
+               ? fail_empty_id(reader, element)
+               : vn_fail(VN_IO, "%s: it has no line: draw a path%s%s", reader->tree.path,
+                         reader->broken ? "; " : "", reader->broken ? reader->complaint : "");
 }
 
 static vn_status read_file(svg_reader *reader, vn_rings *out, const char **unit, const char *path) {
@@ -573,6 +592,18 @@ vn_status vn_svg_read_rings(vn_rings *out, const char **unit, const char *path, 
     if (status != VN_OK) {
         vn_rings_free(out);
     }
+    return status;
+}
+
+vn_status vn_svg_read_lines(vn_paths *paths, const char *path, const vn_paths_def *def) {
+    const vn_svg_def shapes = {.id = def->id, .tolerance = def->tolerance};
+    const char *unit = "";
+    svg_reader reader = {.def = &shapes, .paths = paths};
+    vn_status status = vn_svg_tree_read(&reader.tree, path);
+    status = status == VN_OK ? walk_page(&reader, &unit) : status;
+    status = status == VN_OK ? take_lines(&reader) : status;
+    strcpy(paths->unit, unit);
+    free_reader(&reader);
     return status;
 }
 

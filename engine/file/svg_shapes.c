@@ -82,9 +82,19 @@ static vn_status draw_rect(vn_svg_pen *pen, const vn_svg_tree *tree, int32_t ele
     return draw_rectangle(pen, x, y, w, h, radii);
 }
 
+static vn_status draw_line(vn_svg_pen *pen, const vn_svg_tree *tree, int32_t element,
+                           const vn_svg_viewport *viewport) {
+    double w = viewport->width, h = viewport->height;
+    VN_TRY(vn_svg_pen_move(pen, vn_svg_measure(tree, element, VN_SVG_X1, w, 0),
+                           vn_svg_measure(tree, element, VN_SVG_Y1, h, 0)));
+    return vn_svg_pen_line(pen, vn_svg_measure(tree, element, VN_SVG_X2, w, 0),
+                           vn_svg_measure(tree, element, VN_SVG_Y2, h, 0));
+}
+
 vn_status vn_svg_draw_shape(vn_svg_pen *pen, const vn_svg_tree *tree, int32_t element,
                             const vn_svg_viewport *viewport) {
     const char *data;
+    bool closed;
     switch (tree->elements.data[element].kind) {
     case VN_SVG_PATH:
         data = vn_svg_value(tree, element, VN_SVG_D);
@@ -93,7 +103,10 @@ vn_status vn_svg_draw_shape(vn_svg_pen *pen, const vn_svg_tree *tree, int32_t el
     case VN_SVG_POLYGON:
     case VN_SVG_POLYLINE:
         data = vn_svg_value(tree, element, VN_SVG_POINTS);
-        return data != NULL ? vn_svg_draw_points(pen, data) : VN_OK;
+        closed = tree->elements.data[element].kind == VN_SVG_POLYGON;
+        return data != NULL ? vn_svg_draw_points(pen, data, closed) : VN_OK;
+    case VN_SVG_LINE:
+        return draw_line(pen, tree, element, viewport);
     case VN_SVG_RECT:
         return draw_rect(pen, tree, element, viewport);
     case VN_SVG_CIRCLE:

@@ -23,6 +23,10 @@ static const char *const attribute_names[VN_SVG_NAME_COUNT] = {
     [VN_SVG_CX] = "cx",
     [VN_SVG_CY] = "cy",
     [VN_SVG_R] = "r",
+    [VN_SVG_X1] = "x1",
+    [VN_SVG_Y1] = "y1",
+    [VN_SVG_X2] = "x2",
+    [VN_SVG_Y2] = "y2",
     [VN_SVG_VIEW_BOX] = "viewBox",
     [VN_SVG_PRESERVE_ASPECT_RATIO] = "preserveAspectRatio",
     [VN_SVG_HREF] = "href",
@@ -57,6 +61,7 @@ static const struct {
     {"ellipse", VN_SVG_ELLIPSE},
     {"polygon", VN_SVG_POLYGON},
     {"polyline", VN_SVG_POLYLINE},
+    {"line", VN_SVG_LINE},
 };
 
 /// One reading of a file. libxml2 calls back with it.

@@ -18,6 +18,7 @@ typedef enum vn_svg_kind {
     VN_SVG_ELLIPSE,
     VN_SVG_POLYGON,
     VN_SVG_POLYLINE,
+    VN_SVG_LINE,
 } vn_svg_kind;
 
 typedef enum vn_svg_name {
@@ -36,6 +37,10 @@ typedef enum vn_svg_name {
     VN_SVG_CX,
     VN_SVG_CY,
     VN_SVG_R,
+    VN_SVG_X1,
+    VN_SVG_Y1,
+    VN_SVG_X2,
+    VN_SVG_Y2,
     VN_SVG_VIEW_BOX,
     VN_SVG_PRESERVE_ASPECT_RATIO,
     VN_SVG_HREF,

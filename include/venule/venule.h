@@ -11,6 +11,7 @@
 #include "venule/growth.h"
 #include "venule/network.h"
 #include "venule/output.h"
+#include "venule/paths.h"
 #include "venule/vessel_measures.h"
 #include "venule/voxels.h"
 

@@ -54,6 +54,7 @@ extern const vnl_function vnl_attractors_functions[];
 extern const vnl_function vnl_canvas_functions[];
 extern const vnl_function vnl_voxels_functions[];
 extern const vnl_function vnl_cco_functions[];
+extern const vnl_function vnl_paths_functions[];
 extern const vnl_function vnl_domain_functions[];
 extern const vnl_function vnl_growth_functions[];
 
@@ -151,6 +152,8 @@ int32_t vnl_named_networks(lua_State *L, int index, const char *what, const vn_n
                            const char **names);
 /// net:voxels{…}
 int vnl_network_voxels(lua_State *L);
+/// net:follow(paths, {…})
+int vnl_network_follow(lua_State *L);
 /// net:flow{…} and net:levels().
 int vnl_network_flow(lua_State *L);
 int vnl_network_levels(lua_State *L);

@@ -187,6 +187,7 @@ int luaopen_venule(lua_State *L) {
     add_functions(L, vnl_canvas_functions);
     add_functions(L, vnl_voxels_functions);
     add_functions(L, vnl_cco_functions);
+    add_functions(L, vnl_paths_functions);
     vnl_push_functions(L, vnl_domain_functions);
     make_strict(L, "venule.domain");
     lua_setfield(L, -2, "domain");

@@ -3,6 +3,7 @@
 #include "colonize/attractors.h"
 #include "network/flow.h"
 #include "network/leaf.h"
+#include "network/paths.h"
 #include "network/vessels.h"
 
 #include <string.h>
@@ -307,6 +308,13 @@ static const vnl_function methods[] = {
      "will. `avoid = other` keeps this network clear of others for good; those that grow by turns must each "
      "avoid the other.",
      &vn_extend_schema},
+    {"follow", vnl_network_follow, "(paths: number[][][], options: venule.follow.Options): integer, integer",
+     NULL,
+     "Lay vessels along paths (Rauch & Harders, Figure 4): each is a list of points {x, y} or {x, y, z}, and "
+     "begins at "
+     "the node nearest to its first point, which an earlier path may have made; in an empty network that "
+     "point is the root. How many nodes were added, and the first of them.",
+     &vn_follow_schema},
     {"children", network_children, "(node: integer): integer[]", NULL,
      "The children of a node, in the order of birth.", NULL},
     {"joins", network_joins, "(): {a: integer, b: integer, radius: number, flow?: number}[]", NULL,

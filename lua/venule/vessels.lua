@@ -30,12 +30,13 @@ local drain_rows = {
 local kind_rows = {
   {"roots", nil, type = "table", doc = "where trees begin: {{x, y}, …} or {{x, y, z}, …}, each with heading = {x, y} where its first segment has a direction"},
   {"network", nil, type = "userdata", doc = "a network to go on from, besides roots"},
+  {"guides", nil, type = "any", doc = "paths that vessels follow first: {{{x, y}, …}, …}, or a network, or a file that has lines (venule.paths)"},
 }
 
 local own_rows = {
   {"domain", nil, type = "userdata", required = true, doc = "the tissue: a domain, or a growth"},
   {"rng", nil, type = "userdata", required = true, doc = "the random numbers: venule.rng(seed)"},
-  {"arteries", nil, type = "table", required = true, doc = "{roots = {…}}, or network =, with options that are to hold for arteries alone"},
+  {"arteries", nil, type = "table", required = true, doc = "{roots = {…}}, or guides =, or network =, with options that are to hold for arteries alone"},
   {"veins", nil, type = "table", doc = "likewise; left out: none grow"},
   {"steps", 100, min = 1, max = 1000000, doc = "how many; left out where there are stages or the domain grows by itself: theirs"},
   {"growth", 0.02, min = 0, max = 1, doc = "Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays"},
@@ -137,7 +138,19 @@ local function plan(o, given, size, level)
   return stages
 end
 
-local function start_network(kind, o, first, dim, level)
+-- Vessels along the paths that the user gives; what grows by itself goes on from them (Figure 4).
+local function lay_guides(kind, network, guides, first, place, level)
+  local paths, name = guides, ("vessels.%s.guides"):format(kind)
+  local is_file = type(guides) == "string" or type(guides) == "userdata"
+  if not is_file and type(guides) ~= "table" then
+    error(("%s: paths {{{x, y}, …}, …}, a network or the name of a file expected, got %s"):format(name, type(guides)), level + 1)
+  end
+  if is_file then paths = venule.paths(guides) end
+  network:follow(paths, {length = first.segment_length, within = first.perception_distance, domain = place, name = name})
+end
+
+local function start_network(kind, o, first, place, level)
+  local dim = place.dim
   local read = options.read("vessels." .. kind, branch_rows, o[kind], level)
   local network = read.network or venule.network {dim = dim, unit = o.unit}
   network:murray {exponent = first.murray_exponent, tip_radius = first.tip_radius}
@@ -148,7 +161,8 @@ local function start_network(kind, o, first, dim, level)
     local root = network:root(table.unpack(p, 1, dim))
     if p.heading then network:heading(root, table.unpack(p.heading, 1, dim)) end
   end
-  if #network == 0 then error(("vessels.%s: give roots = {{x, y}, …}, or a network to go on from"):format(kind), level) end
+  if read.guides ~= nil then lay_guides(kind, network, read.guides, first, place, level) end
+  if #network == 0 then error(("vessels.%s: give roots = {{x, y}, …}, guides, or a network to go on from"):format(kind), level) end
   return network
 end
 
@@ -178,13 +192,13 @@ local function vessels(given)
   local tissue = as_growth(o, steps)
   local dim = tissue.dim
   local s = {
-    options = o, stages = stages, stage = 1, stage_step = 0, steps = steps, time = 0, tissue = tissue, networks = {},
+    options = o, stages = stages, stage = 1, stage_step = 0, steps = steps, time = 0, tissue = tissue, networks = {}, begun = {},
     drains = venule.attractors {dim = dim}, sources = venule.attractors {dim = dim},
   }
   for _, kind in ipairs {"arteries", "veins"} do
     if o[kind] then
-      s[kind] = start_network(kind, o, stages[1][kind], dim, 3)
-      s.networks[kind] = s[kind]
+      s[kind] = start_network(kind, o, stages[1][kind], stages[1].domain or tissue, 3)
+      s.networks[kind], s.begun[kind] = s[kind], #s[kind]
     end
   end
   return setmetatable(s, Vessels)
@@ -247,7 +261,7 @@ end
 function Vessels:report()
   for _, kind in ipairs {"arteries", "veins"} do
     local network, attractors = self[kind], kind == "arteries" and self.drains or self.sources
-    if network and #network == network:measure().roots then
+    if network and #network == self.begun[kind] then
       venule.note(("%s never grew: no %s came within perception_distance = %g of a root; raise it, or place roots nearer"):format(kind,
         kind == "arteries" and "drain" or "satisfied drain", self.stages[1][kind].perception_distance))
     end
