@@ -60,4 +60,32 @@ function pen:text(text, x, y, size, anchor)
   self.page:text(text, {at = self:place({{x, y}})[1], size = size or 16, anchor = anchor or "middle"})
 end
 
+--- A sector of a ring about (x, y), between two radii and two angles in degrees.
+function pen:sector(x, y, inner, outer, from, to, options)
+  local points, steps = {}, math.max(8, math.ceil(math.abs(to - from) / 2))
+  for i = 0, 2 * steps + 1 do
+    local out = i <= steps
+    local angle = math.rad(out and from + (to - from) * i / steps or to + (from - to) * (i - steps - 1) / steps)
+    local r = out and outer or inner
+    if r > 0 or i <= steps + 1 then points[#points + 1] = {x + r * math.cos(angle), y + r * math.sin(angle)} end
+  end
+  self:fill(points, options)
+end
+
+--- Draw a network here. Its radii become those of Murray's law.
+function pen:network(network, law, options)
+  local copy, here = venule.network {murray = law}, {}
+  local stack = {}
+  for i = 1, #network do
+    if network.parent[i] == 0 then stack[#stack + 1] = i end
+  end
+  while #stack > 0 do
+    local i = table.remove(stack)
+    local p, above = self:place({{network.x[i], network.y[i]}})[1], here[network.parent[i]]
+    here[i] = above and copy:add(above, p[1], p[2]) or copy:root(p[1], p[2])
+    for _, child in ipairs(network:children(i)) do stack[#stack + 1] = child end
+  end
+  self.page:stroke(copy, options)
+end
+
 return pen
