@@ -200,6 +200,9 @@ vn_status vn_darts_init(vn_darts *darts, int dim, const vn_domain *region, doubl
         darts->low[k] = bounds.min[k];
         darts->side = fmax(darts->side, bounds.max[k] - bounds.min[k]);
     }
+    for (int class = 0; class < VN_DART_CLASSES; class ++) {
+        darts->bounds[class] = 2 * half_diagonal(darts, darts->side) * pow(CLASS_RATIO, class) * (1 + 1e-9);
+    }
     VN_TRY(weigh_region(darts, rng));
     box b = outermost(darts);
     return add_cell(darts, 0, -1, &b, 2 * half_diagonal(darts, darts->side));
@@ -216,17 +219,12 @@ void vn_darts_free(vn_darts *darts) {
     *darts = (vn_darts){0};
 }
 
-// The farthest point of a box from a segment is a corner of it: the distance to a segment is convex.
+// By its middle and that of a vessel that is so far from it: no point is farther, and what is near the middle
+// is as near as that.
 static double farthest(const vn_darts *darts, const box *b, int32_t vessel, const vn_dart_search *search) {
-    double most = 0;
-    for (int i = 0; i < children_of(darts); i++) {
-        double corner[3];
-        for (int k = 0; k < 3; k++) {
-            corner[k] = b->low[k] + (k < darts->dim && (i >> k & 1) ? b->side : 0);
-        }
-        most = fmax(most, search->distance_to(corner, vessel, search->payload));
-    }
-    return most;
+    double middle[3];
+    middle_of(darts, b, middle);
+    return search->distance_to(middle, vessel, search->payload) + half_diagonal(darts, b->side);
 }
 
 static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search) {
@@ -262,89 +260,135 @@ static vn_status learn(vn_darts *darts, int32_t cell, const box *b, const vn_dar
 typedef struct live {
     int last; ///< class
     double mass, volume;
-    double skip; ///< log of the chance that a dart anywhere misses it
+    double part, skip; ///< the chance that a dart anywhere hits it, and the log of that that it misses
+    double lowest;     ///< no free point is nearer to where cells know their vessels
 } live;
 
 // Vessels may have moved by the tolerance untold: points may be as much farther from them than their cell's
 // bound.
-static live live_above(const vn_darts *darts, double threshold) {
-    live l = {.last = class_of(darts, threshold - darts->tolerance)};
-    for (int class = 0; class <= l.last; class ++) {
-        l.mass += darts->mass[class];
-        l.volume += darts->volume[class];
+static void look_for_live(const vn_darts *darts, double threshold, live *l) {
+    l->lowest = threshold - darts->tolerance;
+    l->last = class_of(darts, l->lowest);
+    l->mass = l->volume = 0;
+    for (int class = 0; class <= l->last; class ++) {
+        l->mass += darts->mass[class];
+        l->volume += darts->volume[class];
     }
-    double part = l.volume > 0 ? l.mass / darts->total : 0;
-    l.skip = part < 1 ? log1p(-part) : -INFINITY;
-    return l;
+    l->part = l->volume > 0 ? l->mass / darts->total : 0;
+    l->skip = l->part < 1 ? log1p(-l->part) : -INFINITY;
 }
 
 // Darts in vain before one falls into live cells: geometrically distributed.
 static double skipped(const live *l, vn_rng *rng) {
-    double chance = log1p(-vn_rng_uniform(rng, 0, 1));
-    return l->skip == 0 ? INFINITY : floor(chance / l->skip);
+    double chance = vn_rng_uniform(rng, 0, 1);
+    return chance < l->part ? 0 : l->skip == 0 ? INFINITY : floor(log1p(-chance) / l->skip);
 }
 
-/// A leaf that was picked.
-typedef struct leaf {
-    int32_t cell; ///< -1: none
-    box box;
-} leaf;
-
-static leaf leaf_in(const vn_darts *darts, const vn_dart_bin *bin, int level, int32_t i) {
-    int32_t cell = bin->cells.data[i < bin->cells.count ? i : bin->cells.count - 1];
-    return (leaf){cell, box_of(darts, cell, level)};
-}
+/// A dart into one of a class's cells of one level, that one not yet looked up.
+typedef struct pick {
+    int class, level; ///< -1: there is none
+    int32_t i;        ///< of its bin
+    double at[3];     ///< parts of the cell's side
+} pick;
 
 // One of a class, by how far @p at is along the volumes of its levels.
-static leaf pick_in(const vn_darts *darts, int class, double at) {
-    leaf found = {.cell = -1};
-    for (uint32_t levels = darts->levels[class]; levels != 0; levels &= levels - 1) {
-        int level = __builtin_ctz(levels);
-        const vn_dart_bin *bin = bin_of(darts, class, level);
-        double one = cell_volume(darts, darts->side / (double)(1 << level)), all = one * bin->cells.count;
+static void pick_in(const vn_darts *darts, double at, pick *p) {
+    for (uint32_t levels = darts->levels[p->class]; levels != 0; levels &= levels - 1) {
+        p->level = __builtin_ctz(levels);
+        int32_t count = bin_of(darts, p->class, p->level)->cells.count;
+        double one = cell_volume(darts, darts->side / (double)(1 << p->level)), all = one * count;
+        p->i = (int32_t)fmin(at / one, count - 1);
         if (at < all || (levels & (levels - 1)) == 0) { // the last, where rounding leads beyond it
-            return leaf_in(darts, bin, level, (int32_t)fmin(at / one, bin->cells.count));
+            return;
         }
         at -= all;
     }
-    return found;
 }
 
-// Of the classes that reach above the threshold, a leaf at random, as likely as it is large.
-static leaf pick(const vn_darts *darts, const live *l, vn_rng *rng) {
-    double at = vn_rng_uniform(rng, 0, l->volume);
-    for (int class = 0; class <= l->last; class ++) {
-        if (at < darts->volume[class]) {
-            return pick_in(darts, class, at);
-        }
-        at -= darts->volume[class];
-    }
-    return (leaf){.cell = -1};
-}
-
-static void point_in(const vn_darts *darts, const box *b, vn_rng *rng, double p[3]) {
+// 32 bits for a coordinate are enough.
+static void point_at(int dim, vn_rng *rng, double at[3]) {
+    uint64_t bits = 0;
     for (int k = 0; k < 3; k++) {
-        p[k] = k < darts->dim ? vn_rng_uniform(rng, b->low[k], b->low[k] + b->side) : 0;
+        bits = k == 1 ? bits >> 32 : k < dim ? (uint64_t)vn_rng_integer(rng, INT64_MIN, INT64_MAX) : 0;
+        at[k] = k < dim ? (double)(bits & 0xFFFFFFFF) * 0x1p-32 : 0;
     }
+}
+
+// Of the classes that reach above the threshold, a leaf at random, as likely as it is large. Most are hardly
+// above it.
+static pick pick_one(const vn_darts *darts, const live *l, vn_rng *rng) {
+    pick p = {.class = l->last, .level = -1};
+    double at = vn_rng_uniform(rng, 0, l->volume);
+    while (p.class >= 0 && at >= darts->volume[p.class]) {
+        at -= darts->volume[p.class --];
+    }
+    if (p.class >= 0) {
+        pick_in(darts, at, &p);
+        point_at(darts->dim, rng, p.at);
+    }
+    return p;
+}
+
+// Whether a dart is too near to the middle of its cell, @p bound being that of the cell: the nearest vessel
+// is no farther from the middle than the bound less half the diagonal.
+static bool is_near_middle(const vn_darts *darts, double side, double bound, double lowest,
+                           const double at[3]) {
+    double free = lowest - bound + half_diagonal(darts, side), square = 0;
+    for (int k = 0; k < darts->dim; k++) {
+        square += (at[k] - 0.5) * (at[k] - 0.5);
+    }
+    return free > 0 && square * side * side < free * free;
+}
+
+/// Where a dart fell.
+typedef struct leaf {
+    int32_t cell; ///< -1: none
+    box box;
+    bool vain; ///< certainly not far enough from vessels
+} leaf;
+
+// Without looking the cell up, by what is known of its class. Where parts of cells are outside the region, as
+// many of these darts are taken to have fallen there.
+static bool is_vain(const vn_darts *darts, const live *l, const pick *p, vn_rng *rng, bool *lands) {
+    int class = p->class;
+    if (!is_near_middle(darts, darts->side / (double)(1 << p->level), darts->bounds[class], l->lowest,
+                        p->at)) {
+        return false;
+    }
+    double part = darts->mass[class] / darts->volume[class];
+    *lands = part > 1 - 1e-6 || vn_rng_uniform(rng, 0, 1) < part;
+    return true;
+}
+
+static vn_status fetch(const vn_darts *darts, const live *l, const pick *from, vn_rng *rng, leaf *at,
+                       double p[3]) {
+    double density = 1;
+    int32_t cell = bin_of(darts, from->class, from->level)->cells.data[from->i];
+    const vn_dart_cell *c = &darts->cells.data[cell];
+    box b = box_of(darts, cell, from->level);
+    for (int k = 0; k < 3; k++) {
+        p[k] = k < darts->dim ? b.low[k] + from->at[k] * b.side : 0;
+    }
+    if (c->mass < 1 || darts->density != NULL) {
+        VN_TRY(density_at(darts, p, &density));
+    }
+    if (density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density)) {
+        *at = (leaf){cell, b, is_near_middle(darts, b.side, c->bound, l->lowest, from->at)};
+    }
+    return VN_OK;
 }
 
 // One dart into live cells that lands in the region.
 static vn_status land(const vn_darts *darts, const live *l, vn_rng *rng, leaf *at, double p[3]) {
     enum { MOST = 100000 };
-    at->cell = -1;
-    for (int i = 0; i < MOST && l->volume > 0; i++) {
-        double density = 1;
-        leaf found = pick(darts, l, rng);
-        if (found.cell < 0) {
+    *at = (leaf){.cell = -1};
+    for (int i = 0; i < MOST && l->volume > 0 && at->cell < 0 && !at->vain; i++) {
+        pick found = pick_one(darts, l, rng);
+        if (found.class < 0) {
             return VN_OK;
         }
-        point_in(darts, &found.box, rng, p);
-        if (darts->cells.data[found.cell].mass < 1 || darts->density != NULL) {
-            VN_TRY(density_at(darts, p, &density));
-        }
-        if (density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density)) {
-            *at = found;
-            return VN_OK;
+        if (!is_vain(darts, l, &found, rng, &at->vain)) {
+            VN_TRY(fetch(darts, l, &found, rng, at, p));
         }
     }
     return VN_OK;
@@ -388,20 +432,21 @@ static vn_status try_dart(vn_darts *darts, const vn_dart_search *search, const l
 vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *rng, double p[3],
                          int64_t *darts_thrown) {
     double threshold = search->threshold, thrown = 0;
-    live l = live_above(darts, lowest(darts, threshold));
+    live l;
+    look_for_live(darts, lowest(darts, threshold), &l);
     while (threshold > 1e-6 * darts->side) {
         thrown += skipped(&l, rng) + 1;
         if (thrown > search->tries) {
             *darts_thrown += search->tries;
             threshold *= search->factor;
             thrown = 0;
-            l = live_above(darts, lowest(darts, threshold));
+            look_for_live(darts, lowest(darts, threshold), &l);
             continue;
         }
         leaf at;
         bool sticks, news;
         VN_TRY(land(darts, &l, rng, &at, p));
-        if (at.cell < 0) {
+        if (at.cell < 0 || at.vain) {
             continue;
         }
         VN_TRY(try_dart(darts, search, &at, p, threshold, &sticks, &news));
@@ -410,7 +455,7 @@ vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *
             return VN_OK;
         }
         if (news) {
-            l = live_above(darts, lowest(darts, threshold));
+            look_for_live(darts, lowest(darts, threshold), &l);
         }
     }
     return vn_fail(VN_INFEASIBLE, "there is no room left between the vessels");

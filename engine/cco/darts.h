@@ -40,6 +40,7 @@ typedef struct vn_darts {
     uint32_t levels[VN_DART_CLASSES]; ///< which of a class's bins hold any
     double mass[VN_DART_CLASSES];     ///< of each class's leaves
     double volume[VN_DART_CLASSES];
+    double bounds[VN_DART_CLASSES]; ///< none of the class is above it
 } vn_darts;
 
 /// @p tolerance is small against the thresholds that are to come.

@@ -204,8 +204,10 @@ static void by_options(void **state) {
             def.placement = VN_PLACE_TERMINALS;
             break;
         case 4:
-            def.growing_domain = false; // the first vessels are thin, and must thicken
-            one.inflow = l.inflow = 50;
+            // The first vessels are thin, and must thicken: with less room every fourth ball gets stuck.
+            def.growing_domain = false;
+            def.foresight = 60;
+            one.inflow = l.inflow = 10;
             break;
         default:
             one.exponent = l.exponent = 2.55;
