@@ -260,10 +260,11 @@ static vn_status choose(vn_cco *cco, vn_grower *g, const double terminal[3], dou
     return VN_OK;
 }
 
+// Where another terminal can be drawn instead, only the first lot is looked at: beyond it hardly anything is
+// found, and that is long and costs volume.
 static vn_status connect_near(vn_cco *cco, vn_grower *g, const double terminal[3], double flow, bool *done) {
     int32_t looked = 0, count = cco->def.candidates;
-    int32_t whole = cco->def.most_candidates;
-    int32_t most = cco->patient && whole / 4 > count ? 4 * count : whole;
+    int32_t most = cco->patient ? count : cco->def.most_candidates;
     for (;; count = count > INT32_MAX / 2 ? INT32_MAX : 2 * count) {
         int32_t all = g->tree.vessels.count;
         VN_TRY(vn_places_nearest(g, terminal, count < all ? count : all));
