@@ -340,57 +340,76 @@ static bool is_near_middle(const vn_darts *darts, double side, double bound, dou
     return free > 0 && square * side * side < free * free;
 }
 
-/// Where a dart fell.
-typedef struct leaf {
-    int32_t cell; ///< -1: none
-    box box;
-    bool vain; ///< certainly not far enough from vessels
-} leaf;
-
-// Without looking the cell up, by what is known of its class. Where parts of cells are outside the region, as
-// many of these darts are taken to have fallen there.
-static bool is_vain(const vn_darts *darts, const live *l, const pick *p, vn_rng *rng, bool *lands) {
-    int class = p->class;
-    if (!is_near_middle(darts, darts->side / (double)(1 << p->level), darts->bounds[class], l->lowest,
-                        p->at)) {
-        return false;
-    }
-    double part = darts->mass[class] / darts->volume[class];
-    *lands = part > 1 - 1e-6 || vn_rng_uniform(rng, 0, 1) < part;
-    return true;
+// Without looking the cell up, by what is known of its class.
+static bool is_vain(const vn_darts *darts, const live *l, const pick *p) {
+    return is_near_middle(darts, darts->side / (double)(1 << p->level), darts->bounds[p->class], l->lowest,
+                          p->at);
 }
 
-static vn_status fetch(const vn_darts *darts, const live *l, const pick *from, vn_rng *rng, leaf *at,
-                       double p[3]) {
+// Where parts of a class's cells are outside the region, as many of the darts that are not looked up are
+// taken to have fallen there.
+static bool probably_lands(const vn_darts *darts, int class, vn_rng *rng) {
+    double part = darts->mass[class] / darts->volume[class];
+    return part > 1 - 1e-6 || vn_rng_uniform(rng, 0, 1) < part;
+}
+
+/// A dart on its way.
+typedef struct dart {
+    pick pick;
+    double thrown; ///< darts at this threshold up to this one
+    int32_t cell;  ///< where it fell; -1: in vain
+    box box;
+    double p[3];
+    double away; ///< from the vessel that refused the last dart there
+} dart;
+
+// One of those that fall into live cells of the region, in vain or not; class -1: it certainly is.
+static void aim(const vn_darts *darts, const live *l, vn_rng *rng, pick *p) {
+    enum { MOST = 100000 };
+    for (int i = 0; i < MOST; i++) {
+        *p = pick_one(darts, l, rng);
+        if (p->class < 0 || !is_vain(darts, l, p)) {
+            return;
+        }
+        if (probably_lands(darts, p->class, rng)) {
+            break;
+        }
+    }
+    p->class = -1;
+}
+
+static void find_cell(const vn_darts *darts, dart *d) {
+    d->cell = d->pick.class >= 0 ? bin_of(darts, d->pick.class, d->pick.level)->cells.data[d->pick.i] : -1;
+}
+
+static vn_status lands(const vn_darts *darts, dart *d, vn_rng *rng, bool *yes) {
     double density = 1;
-    int32_t cell = bin_of(darts, from->class, from->level)->cells.data[from->i];
-    const vn_dart_cell *c = &darts->cells.data[cell];
-    box b = box_of(darts, cell, from->level);
+    d->box = box_of(darts, d->cell, d->pick.level);
     for (int k = 0; k < 3; k++) {
-        p[k] = k < darts->dim ? b.low[k] + from->at[k] * b.side : 0;
+        d->p[k] = k < darts->dim ? d->box.low[k] + d->pick.at[k] * d->box.side : 0;
     }
-    if (c->mass < 1 || darts->density != NULL) {
-        VN_TRY(density_at(darts, p, &density));
+    if (darts->cells.data[d->cell].mass < 1 || darts->density != NULL) {
+        VN_TRY(density_at(darts, d->p, &density));
     }
-    if (density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density)) {
-        *at = (leaf){cell, b, is_near_middle(darts, b.side, c->bound, l->lowest, from->at)};
-    }
+    *yes = density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density);
     return VN_OK;
 }
 
-// One dart into live cells that lands in the region.
-static vn_status land(const vn_darts *darts, const live *l, vn_rng *rng, leaf *at, double p[3]) {
+// What falls outside the region does not count, and is thrown again.
+static vn_status land(const vn_darts *darts, const live *l, dart *d, vn_rng *rng) {
     enum { MOST = 100000 };
-    *at = (leaf){.cell = -1};
-    for (int i = 0; i < MOST && l->volume > 0 && at->cell < 0 && !at->vain; i++) {
-        pick found = pick_one(darts, l, rng);
-        if (found.class < 0) {
+    for (int i = 0; i < MOST && d->cell >= 0; i++) {
+        bool yes;
+        VN_TRY(lands(darts, d, rng, &yes));
+        if (yes) {
+            float bound = darts->cells.data[d->cell].bound;
+            d->cell = is_near_middle(darts, d->box.side, bound, l->lowest, d->pick.at) ? -1 : d->cell;
             return VN_OK;
         }
-        if (!is_vain(darts, l, &found, rng, &at->vain)) {
-            VN_TRY(fetch(darts, l, &found, rng, at, p));
-        }
+        aim(darts, l, rng, &d->pick);
+        find_cell(darts, d);
     }
+    d->cell = -1;
     return VN_OK;
 }
 
@@ -409,52 +428,108 @@ static double lowest(const vn_darts *darts, double threshold) {
     return threshold * pow(darts->mean, 1.0 / darts->dim);
 }
 
-// Whether the dart sticks; what refused it is remembered, and asked first next time. `news` says that cells
-// changed.
-static vn_status try_dart(vn_darts *darts, const vn_dart_search *search, const leaf *at, const double p[3],
-                          double threshold, bool *sticks, bool *news) {
-    vn_dart_cell *c = &darts->cells.data[at->cell];
+enum { AT_ONCE = 16 };
+
+/// Darts that are in the air together: cells and vessels are all over the memory, and wait for one another
+/// less so. One that sticks makes those after it not thrown.
+typedef struct volley {
+    dart darts[AT_ONCE];
+    int count;
+    double thrown; ///< at this threshold in all
+    bool over;     ///< these were all tries
+} volley;
+
+static void throw_volley(const vn_darts *darts, const live *l, const vn_dart_search *search, vn_rng *rng,
+                         volley *v) {
+    int most = darts->density == NULL ? AT_ONCE : 1; // a density may be slow to ask
+    for (v->count = 0; v->count < most;) {
+        dart *d = &v->darts[v->count];
+        v->thrown += skipped(l, rng) + 1;
+        v->over = v->thrown > search->tries;
+        if (v->over) {
+            return;
+        }
+        aim(darts, l, rng, &d->pick);
+        if (d->pick.class >= 0) {
+            __builtin_prefetch(&bin_of(darts, d->pick.class, d->pick.level)->cells.data[d->pick.i]);
+            d->thrown = v->thrown;
+            v->count++;
+        }
+    }
+}
+
+static vn_status land_volley(const vn_darts *darts, const live *l, const vn_dart_search *search, vn_rng *rng,
+                             volley *v) {
+    for (int i = 0; i < v->count; i++) {
+        find_cell(darts, &v->darts[i]);
+        __builtin_prefetch(&darts->cells.data[v->darts[i].cell]);
+    }
+    for (int i = 0; i < v->count; i++) {
+        VN_TRY(land(darts, l, &v->darts[i], rng));
+    }
+    for (int i = 0; i < v->count; i++) {
+        dart *d = &v->darts[i];
+        int32_t witness = d->cell >= 0 ? darts->cells.data[d->cell].witness : -1;
+        d->away = witness >= 0 ? search->distance_to(d->p, witness, search->payload) : INFINITY;
+    }
+    return VN_OK;
+}
+
+// Whether the dart sticks; what refused it is remembered, and asked first next time. A cell may have been
+// divided by another dart of the volley.
+static vn_status try_dart(vn_darts *darts, const vn_dart_search *search, const dart *d, double threshold,
+                          bool *sticks, bool *news) {
     double here = threshold;
-    *sticks = *news = false;
-    VN_TRY(local_threshold(darts, p, &here));
-    if (c->witness >= 0 && search->distance_to(p, c->witness, search->payload) <= here) {
+    VN_TRY(local_threshold(darts, d->p, &here));
+    if (d->away <= here) {
         return VN_OK;
     }
-    double distance = search->distance(p, &c->witness, search->payload);
+    vn_dart_cell *c = &darts->cells.data[d->cell];
+    double distance = search->distance(d->p, &c->witness, search->payload);
     if (distance > here) {
-        *sticks = !search->refuse(p, search->payload);
+        *sticks = !search->refuse(d->p, search->payload);
         return VN_OK;
     }
     *news = true;
-    return learn(darts, at->cell, &at->box, search, lowest(darts, threshold));
+    return c->link >= 0 ? learn(darts, d->cell, &d->box, search, lowest(darts, threshold)) : VN_OK;
+}
+
+// Its number in the volley, if one sticks; or -1.
+static vn_status try_volley(vn_darts *darts, const vn_dart_search *search, const volley *v, double threshold,
+                            int *stuck, bool *news) {
+    bool sticks = false;
+    *stuck = -1;
+    for (int i = 0; i < v->count && !sticks; i++) {
+        VN_TRY(v->darts[i].cell >= 0 ? try_dart(darts, search, &v->darts[i], threshold, &sticks, news)
+                                     : VN_OK);
+        *stuck = sticks ? i : -1;
+    }
+    return VN_OK;
 }
 
 vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *rng, double p[3],
                          int64_t *darts_thrown) {
-    double threshold = search->threshold, thrown = 0;
+    double threshold = search->threshold;
+    volley v = {0};
     live l;
     look_for_live(darts, lowest(darts, threshold), &l);
     while (threshold > 1e-6 * darts->side) {
-        thrown += skipped(&l, rng) + 1;
-        if (thrown > search->tries) {
-            *darts_thrown += search->tries;
-            threshold *= search->factor;
-            thrown = 0;
-            look_for_live(darts, lowest(darts, threshold), &l);
-            continue;
-        }
-        leaf at;
-        bool sticks, news;
-        VN_TRY(land(darts, &l, rng, &at, p));
-        if (at.cell < 0 || at.vain) {
-            continue;
-        }
-        VN_TRY(try_dart(darts, search, &at, p, threshold, &sticks, &news));
-        if (sticks) {
-            *darts_thrown += (int64_t)thrown;
+        int stuck;
+        bool news = false;
+        throw_volley(darts, &l, search, rng, &v);
+        VN_TRY(land_volley(darts, &l, search, rng, &v));
+        VN_TRY(try_volley(darts, search, &v, threshold, &stuck, &news));
+        if (stuck >= 0) {
+            *darts_thrown += (int64_t)v.darts[stuck].thrown;
+            memcpy(p, v.darts[stuck].p, sizeof v.darts[stuck].p);
             return VN_OK;
         }
-        if (news) {
+        if (v.over) {
+            *darts_thrown += search->tries;
+            threshold *= search->factor;
+            v.thrown = 0;
+        }
+        if (v.over || news) {
             look_for_live(darts, lowest(darts, threshold), &l);
         }
     }
