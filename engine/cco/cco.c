@@ -361,7 +361,8 @@ static vn_status make_darts(const vn_cco *cco, const vn_grower *g, int32_t tree,
     vn_rng rng = {.seed = (uint64_t)cco->def.seed,
                   .stream = vn_hash(2, (uint64_t)tree, (uint64_t)g->draws, 0)};
     double last = cco->def.spacing * pow(vn_domain_measure(part) / g->wanted, 1.0 / cco->dim);
-    return vn_darts_init(darts, cco->dim, part, 0.1 * last, cco->def.density, cco->def.density_payload, &rng);
+    return vn_darts_init(darts, cco->dim, part, 0.02 * last, cco->def.density, cco->def.density_payload,
+                         &rng);
 }
 
 static vn_status start_darts(const vn_cco *cco, vn_grower *g, int32_t tree) {

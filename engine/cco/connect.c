@@ -147,7 +147,7 @@ static vn_status tell_darts(vn_grower *g, bool terminals, const int32_t *nodes, 
         const double *p = vn_vessel_of(g, nodes[count - 1])->p;
         memcpy(ends[0][0], p, sizeof ends[0][0]);
         memcpy(ends[0][1], p, sizeof ends[0][1]);
-        return vn_darts_tell(&g->darts, (const double(*)[2][3])ends, 1, 0);
+        return vn_darts_tell(&g->darts, &nodes[count - 1], (const double(*)[2][3])ends, 1, 0);
     }
     if (moved <= g->darts.tolerance) {
         nodes += count - 1;
@@ -159,7 +159,7 @@ static vn_status tell_darts(vn_grower *g, bool terminals, const int32_t *nodes, 
         memcpy(ends[i][0], vn_vessel_of(g, v->parent)->p, sizeof ends[i][0]);
         memcpy(ends[i][1], v->p, sizeof ends[i][1]);
     }
-    return vn_darts_tell(&g->darts, (const double(*)[2][3])ends, count, moved);
+    return vn_darts_tell(&g->darts, nodes, (const double(*)[2][3])ends, count, moved);
 }
 
 static vn_status grow_first(const vn_cco *cco, vn_grower *g, const vn_plan *plan, double flow) {

@@ -41,14 +41,15 @@ static box box_of(const vn_darts *darts, int32_t cell, int level) {
     uint64_t at = darts->cells.data[cell].at;
     box b = {.side = darts->side / (double)(1 << level), .level = level};
     for (int k = 0; k < 3; k++) {
-        b.low[k] = darts->low[k] + (double)(at >> (20 * k) & 0xFFFFF) * b.side;
+        b.low[k] =
+            darts->low[k] + (double)(at >> (VN_DART_LEVELS * k) & ((1 << VN_DART_LEVELS) - 1)) * b.side;
     }
     return b;
 }
 
 static uint64_t child_at(uint64_t at, int child) {
-    return 2 * at +
-           ((uint64_t)(child & 1) | (uint64_t)(child >> 1 & 1) << 20 | (uint64_t)(child >> 2 & 1) << 40);
+    return 2 * at + ((uint64_t)(child & 1) | (uint64_t)(child >> 1 & 1) << VN_DART_LEVELS |
+                     (uint64_t)(child >> 2 & 1) << (2 * VN_DART_LEVELS));
 }
 
 static void middle_of(const vn_darts *darts, const box *b, double p[3]) {
@@ -70,7 +71,7 @@ static vn_dart_bin *bin_of(const vn_darts *darts, int class, int level) {
 static void account(vn_darts *darts, int class, const vn_dart_cell *cell, double side, double sign) {
     double volume = sign * cell_volume(darts, side);
     darts->volume[class] += volume;
-    darts->mass[class] += volume * cell->mass;
+    darts->mass[class] += volume * cell->mass / VN_DART_WHOLE;
 }
 
 static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
@@ -132,12 +133,12 @@ static vn_status density_at(const vn_darts *darts, const double p[3], double *de
 }
 
 // At the middles of 8 x 8 or 4 x 4 x 4 parts: the mean decides only how many darts count as skipped.
-static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) {
+static vn_status measure_mass(const vn_darts *darts, const box *b, int *mass) {
     int across = darts->dim == 3 ? 4 : 8, deep = darts->dim == 3 ? 4 : 1;
     double sum = 0, middle[3];
     middle_of(darts, b, middle);
     double border = vn_domain_distance(darts->region, middle), half = half_diagonal(darts, b->side);
-    *mass = border > half ? 1 : 0;
+    *mass = border > half ? VN_DART_WHOLE : 0;
     if ((border > half && darts->density == NULL) || border < -half) {
         return VN_OK;
     }
@@ -151,18 +152,22 @@ static vn_status measure_mass(const vn_darts *darts, const box *b, float *mass) 
         VN_TRY(density_at(darts, p, &density));
         sum += density;
     }
-    int32_t all = across * across * deep;
-    sum = fmin(fmax(sum, 0.5), all - 0.5); // something may be there that was missed, or not be all there
-    *mass = (float)(sum / all);
+    double part = round(sum / (across * across * deep) * VN_DART_WHOLE);
+    *mass = (int)fmin(fmax(part, 1), VN_DART_WHOLE - 1); // some may be there, or not, that was missed
     return VN_OK;
 }
 
 static vn_status add_cell(vn_darts *darts, uint64_t code, int32_t witness, const box *b, double bound) {
     int32_t at = darts->cells.count;
-    vn_dart_cell cell = {code, -1, witness, round_up(bound), 0};
-    VN_TRY(measure_mass(darts, b, &cell.mass));
+    int mass;
+    VN_TRY(measure_mass(darts, b, &mass));
+    vn_dart_cell cell = {.at = code & ((UINT64_C(1) << 3 * VN_DART_LEVELS) - 1),
+                         .mass = (unsigned)mass & VN_DART_WHOLE,
+                         .link = -1,
+                         .witness = {witness, -1},
+                         .bound = round_up(bound)};
     VN_TRY(vn_array_push(&darts->cells, cell));
-    return cell.mass > 0 ? put(darts, at, b) : VN_OK;
+    return mass > 0 ? put(darts, at, b) : VN_OK;
 }
 
 static vn_status weigh_region(vn_darts *darts, vn_rng *rng) {
@@ -235,8 +240,8 @@ static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_da
     darts->cells.data[cell].link = ~first;
     for (int i = 0; i < children_of(darts); i++) {
         box c = child_box(darts, b, i);
-        double bound = fmin(whole.bound, farthest(darts, &c, whole.witness, search));
-        VN_TRY(add_cell(darts, child_at(whole.at, i), whole.witness, &c, bound));
+        double bound = fmin(whole.bound, farthest(darts, &c, whole.witness[0], search));
+        VN_TRY(add_cell(darts, child_at(whole.at, i), whole.witness[0], &c, bound));
     }
     return VN_OK;
 }
@@ -248,7 +253,7 @@ static const double SMALLEST = 1.0;
 static vn_status learn(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search,
                        double threshold) {
     vn_dart_cell *c = &darts->cells.data[cell];
-    double bound = fmin(c->bound, farthest(darts, b, c->witness, search));
+    double bound = fmin(c->bound, farthest(darts, b, c->witness[0], search));
     if (bound > threshold && half_diagonal(darts, b->side) > SMALLEST * threshold &&
         b->level < VN_DART_LEVELS - 1) {
         return divide(darts, cell, b, search);
@@ -388,7 +393,7 @@ static vn_status lands(const vn_darts *darts, dart *d, vn_rng *rng, bool *yes) {
     for (int k = 0; k < 3; k++) {
         d->p[k] = k < darts->dim ? d->box.low[k] + d->pick.at[k] * d->box.side : 0;
     }
-    if (darts->cells.data[d->cell].mass < 1 || darts->density != NULL) {
+    if (darts->cells.data[d->cell].mass < VN_DART_WHOLE || darts->density != NULL) {
         VN_TRY(density_at(darts, d->p, &density));
     }
     *yes = density >= 1 || (density > 0 && vn_rng_uniform(rng, 0, 1) < density);
@@ -469,10 +474,15 @@ static vn_status land_volley(const vn_darts *darts, const live *l, const vn_dart
     }
     for (int i = 0; i < v->count; i++) {
         dart *d = &v->darts[i];
-        int32_t witness = d->cell >= 0 ? darts->cells.data[d->cell].witness : -1;
+        int32_t witness = d->cell >= 0 ? darts->cells.data[d->cell].witness[0] : -1;
         d->away = witness >= 0 ? search->distance_to(d->p, witness, search->payload) : INFINITY;
     }
     return VN_OK;
+}
+
+static void remember(vn_dart_cell *c, int32_t vessel) {
+    c->witness[1] = c->witness[0] != vessel ? c->witness[0] : c->witness[1];
+    c->witness[0] = vessel;
 }
 
 // Whether the dart sticks; what refused it is remembered, and asked first next time. A cell may have been
@@ -485,11 +495,15 @@ static vn_status try_dart(vn_darts *darts, const vn_dart_search *search, const d
         return VN_OK;
     }
     vn_dart_cell *c = &darts->cells.data[d->cell];
-    double distance = search->distance(d->p, &c->witness, search->payload);
-    if (distance > here) {
-        *sticks = !search->refuse(d->p, search->payload);
-        return VN_OK;
+    int32_t nearest = c->witness[1];
+    if (nearest < 0 || search->distance_to(d->p, nearest, search->payload) > here) {
+        double distance = search->distance(d->p, &nearest, search->payload);
+        if (distance > here) {
+            *sticks = !search->refuse(d->p, search->payload);
+            return VN_OK;
+        }
     }
+    remember(c, nearest);
     *news = true;
     return c->link >= 0 ? learn(darts, d->cell, &d->box, search, lowest(darts, threshold)) : VN_OK;
 }
@@ -539,6 +553,7 @@ vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *
 /// Segments that were added, and the box about them.
 typedef struct news {
     const double (*ends)[2][3];
+    const int32_t *vessels;
     int32_t count;
     double moved;
     double low[3], high[3];
@@ -566,29 +581,44 @@ static double from_box(const news *n, const double p[3]) {
     return sqrt(square);
 }
 
-static double from_segments(const news *n, const double p[3]) {
+static double from_segments(const news *n, const double p[3], int32_t *vessel) {
     double nearest = INFINITY;
     for (int32_t i = 0; i < n->count; i++) {
         double square = vn_point_segment_distance2(p, n->ends[i][0], n->ends[i][1]);
-        nearest = square < nearest ? square : nearest;
+        if (square < nearest) {
+            nearest = square;
+            *vessel = n->vessels[i];
+        }
     }
     return sqrt(nearest);
 }
 
-// Where another vessel is nearer to all of a cell, nothing changes there. Bounds must rise wherever vessels
-// moved; that they could fall is told only to cells around a new one, others find out when a dart falls into
-// them.
+static vn_status spread_leaf(vn_darts *darts, int32_t cell, const box *b, const double middle[3],
+                             const news *n) {
+    vn_dart_cell *c = &darts->cells.data[cell];
+    double half = half_diagonal(darts, b->side), known = c->bound - half;
+    int32_t vessel = -1;
+    double nearest = from_segments(n, middle, &vessel);
+    if (nearest > known + n->moved) {
+        return VN_OK;
+    }
+    if (nearest < known) {
+        remember(c, vessel);
+    }
+    return set_bound(darts, cell, b, fmin(known + n->moved, nearest) + half);
+}
+
+// Where another vessel is nearer to the middle of a cell, nothing changes there. Elsewhere bounds fall, or
+// rise where vessels moved.
 static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news *n) {
     vn_dart_cell *c = &darts->cells.data[cell];
-    double middle[3], half = half_diagonal(darts, b->side),
-                      limit = n->moved > 0 ? c->bound + half + n->moved : half;
+    double middle[3], half = half_diagonal(darts, b->side);
     middle_of(darts, b, middle);
-    if (from_box(n, middle) > limit) {
+    if (from_box(n, middle) > c->bound + n->moved + (c->link >= -1 ? -half : half)) {
         return VN_OK;
     }
     if (c->link >= -1) {
-        double nearest = from_segments(n, middle);
-        return nearest > limit ? VN_OK : set_bound(darts, cell, b, fmin(c->bound + n->moved, nearest + half));
+        return spread_leaf(darts, cell, b, middle, n);
     }
     float bound = 0;
     int32_t first = ~c->link;
@@ -601,8 +631,9 @@ static vn_status spread(vn_darts *darts, int32_t cell, const box *b, const news 
     return VN_OK;
 }
 
-vn_status vn_darts_tell(vn_darts *darts, const double (*ends)[2][3], int32_t count, double moved) {
-    news n = {.ends = ends, .count = count, .moved = moved};
+vn_status vn_darts_tell(vn_darts *darts, const int32_t *vessels, const double (*ends)[2][3], int32_t count,
+                        double moved) {
+    news n = {.ends = ends, .vessels = vessels, .count = count, .moved = moved};
     box b = outermost(darts);
     enclose(&n);
     return darts->cells.count > 0 ? spread(darts, 0, &b, &n) : VN_OK;

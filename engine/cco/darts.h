@@ -2,25 +2,26 @@
 /// distribution of darts that fall anywhere and are refused nearly always, without throwing those that must
 /// be.
 ///
-/// The box around the region is cut into a tree of cells. Each knows a distance that no point in it exceeds
-/// from the vessels; darts are thrown only into cells where that is above the threshold, and those that would
-/// have fallen elsewhere are counted in one stroke.
+/// The box around the region is cut into a tree of cells. Each knows a vessel, and so a distance that no
+/// point in it exceeds from the vessels: that of its middle and half its diagonal. Darts are thrown only into
+/// cells where that is above the threshold, and those that would have fallen elsewhere are counted in one
+/// stroke. Those too near to the middle are refused by their cell's class, before any cell is looked up.
 #ifndef VN_CCO_DARTS_H
 #define VN_CCO_DARTS_H
 
 #include "base/array.h"
 #include "venule/cco.h"
 
+enum { VN_DART_LEVELS = 18, VN_DART_CLASSES = 200, VN_DART_WHOLE = 1023 };
+
 typedef struct vn_dart_cell {
-    uint64_t at; ///< which cell of its level, 20 bits for each direction
+    uint64_t at : 54;   ///< which cell of its level, 18 bits for each direction
+    uint64_t mass : 10; ///< part of it that is in the region, weighed by density; all of it: VN_DART_WHOLE
     int32_t
         link; ///< of a leaf, its place in its bin, or -1 where nothing of the region is; else ~first child
-    int32_t witness; ///< the vessel that last refused a dart here, or -1
+    int32_t witness[2]; ///< the vessel that last refused a dart here, and the one before; or -1
     float bound;
-    float mass; ///< part of it that is in the region, weighed by density
 } vn_dart_cell;
-
-enum { VN_DART_LEVELS = 20, VN_DART_CLASSES = 200 };
 
 typedef struct vn_dart_bin {
     VN_ARRAY(int32_t) cells;
@@ -64,8 +65,9 @@ typedef struct vn_dart_search {
 vn_status vn_darts_throw(vn_darts *darts, const vn_dart_search *search, vn_rng *rng, double p[3],
                          int64_t *darts_thrown);
 
-/// Vessels were added: these segments, each from one point to the next. Where @p moved is above 0, vessels at
-/// most that far from the first two were there instead.
-vn_status vn_darts_tell(vn_darts *darts, const double (*ends)[2][3], int32_t count, double moved);
+/// Vessels were added: these, each a segment from one point to the next. Where @p moved is above 0, vessels
+/// at most that far from the first two were there instead.
+vn_status vn_darts_tell(vn_darts *darts, const int32_t *vessels, const double (*ends)[2][3], int32_t count,
+                        double moved);
 
 #endif

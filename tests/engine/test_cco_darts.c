@@ -32,6 +32,14 @@ static bool refuse(const double p[3], void *payload) {
     return p[0] - floor(p[0]) < 0.5 && p[1] - floor(p[1]) < 0.5;
 }
 
+static vn_status tell_all(vn_darts *darts, const vessels *v) {
+    int32_t numbers[64];
+    for (int32_t i = 0; i < v->count; i++) {
+        numbers[i] = i;
+    }
+    return vn_darts_tell(darts, numbers, (const double(*)[2][3])v->ends, v->count, 0);
+}
+
 static vn_dart_search search_of(vessels *v, double threshold, double factor, int32_t tries) {
     return (vn_dart_search){threshold, factor, tries, distance, distance_to, refuse, v};
 }
@@ -138,7 +146,7 @@ static void compare(place *at, double threshold, double factor, int32_t tries, i
     vn_darts darts = {0};
     assert_ok(vn_darts_init(&darts, vn_domain_dim(at->region), at->region, 0, at->density, NULL, &rng));
     at->mean = darts.mean;
-    assert_ok(vn_darts_tell(&darts, (const double(*)[2][3])v.ends, v.count, 0));
+    assert_ok(tell_all(&darts, &v));
     compare_throws(at, &darts, &search, throws, &rng);
     vn_darts_free(&darts);
 }
@@ -190,7 +198,7 @@ static void compare_bent(int dim, double threshold, double tolerance) {
     vn_darts darts = {0};
     search.refuse = refuse_nothing;
     assert_ok(vn_darts_init(&darts, dim, region, tolerance, NULL, NULL, &rng));
-    assert_ok(vn_darts_tell(&darts, (const double(*)[2][3])v.ends, v.count, 0));
+    assert_ok(tell_all(&darts, &v));
     throw_in_vain(&darts, search, &rng);
     for (int k = 0; k < 4; k++) {
         v.ends[0][k / 2][k % 2] += tolerance / sqrt(2);
@@ -232,8 +240,8 @@ static void darts_fall_into_the_region(void **state) {
 
 // ---- Bounds ----
 
-// The leaf that a point lies in.
-static const vn_dart_cell *leaf_at(const vn_darts *darts, const double p[3]) {
+// The leaf that a point lies in, its middle and half its diagonal.
+static const vn_dart_cell *leaf_at(const vn_darts *darts, const double p[3], double middle[3], double *half) {
     double low[3] = {darts->low[0], darts->low[1], darts->low[2]}, side = darts->side;
     const vn_dart_cell *c = &darts->cells.data[0];
     while (c->link < -1) {
@@ -246,17 +254,23 @@ static const vn_dart_cell *leaf_at(const vn_darts *darts, const double p[3]) {
         }
         c = &darts->cells.data[~c->link + child];
     }
+    for (int k = 0; k < 3; k++) {
+        middle[k] = low[k] + (k < darts->dim ? side / 2 : 0);
+    }
+    *half = side / 2 * sqrt(darts->dim);
     return c;
 }
 
 static void check_bounds(const vn_darts *darts, const vn_domain *region, vessels *v, vn_rng *rng) {
     for (int i = 0; i < 300; i++) {
-        double p[3];
+        double p[3], middle[3], half;
         int32_t nearest;
         assert_ok(vn_domain_dart(region, rng, p));
-        const vn_dart_cell *leaf = leaf_at(darts, p);
+        const vn_dart_cell *leaf = leaf_at(darts, p, middle, &half);
         assert_true(leaf->link >= 0); // it can be hit
         assert_true(distance(p, &nearest, v) <= leaf->bound);
+        assert_true(distance(middle, &nearest, v) + half <= leaf->bound); // so all about the middle is near
+        assert_true(leaf->witness[0] < v->count && leaf->witness[1] < v->count);
     }
 }
 
@@ -276,7 +290,8 @@ static void grow(vn_darts *darts, vessels *v, const double p[3], vn_rng *rng) {
     memcpy(v->ends[at], told[1], sizeof told[1]); // the lower part keeps the number
     memcpy(v->ends[v->count++], told[0], sizeof told[0]);
     memcpy(v->ends[v->count++], told[2], sizeof told[2]);
-    assert_ok(vn_darts_tell(darts, (const double(*)[2][3])told, 3, moved));
+    const int32_t numbers[] = {v->count - 2, at, v->count - 1};
+    assert_ok(vn_darts_tell(darts, numbers, (const double(*)[2][3])told, 3, moved));
 }
 
 static void bounds_hold_while_vessels_move(void **state) {
@@ -288,7 +303,7 @@ static void bounds_hold_while_vessels_move(void **state) {
         vessels v = random_vessels(region, 2, &rng);
         vn_darts darts = {0};
         assert_ok(vn_darts_init(&darts, vn_domain_dim(region), region, 0, NULL, NULL, &rng));
-        assert_ok(vn_darts_tell(&darts, (const double(*)[2][3])v.ends, v.count, 0));
+        assert_ok(tell_all(&darts, &v));
         while (v.count < 62) {
             vn_dart_search search = search_of(&v, 8 / sqrt(v.count), 0.9, 100);
             double p[3];
@@ -322,16 +337,18 @@ static void check_tree_bounds(int dim, int placement) {
         assert_ok(vn_cco_grow(cco, i < 10 ? 1 : 10, &added));
         const vn_grower *g = vn_cco_tree_at(cco, 0);
         for (int k = 0; k < 300; k++) {
-            double p[3];
+            double p[3], middle[3], half;
             int32_t node;
             assert_ok(vn_domain_dart(domain, &rng, p));
-            double far = vn_places_seek(
-                g, p, placement == VN_PLACE_TERMINALS ? VN_SEEK_TERMINAL : VN_SEEK_AXIS, &node);
-            low += far > leaf_at(&g->darts, p)->bound + g->darts.tolerance;
+            double bound = leaf_at(&g->darts, p, middle, &half)->bound + g->darts.tolerance;
+            vn_seek seek = placement == VN_PLACE_TERMINALS ? VN_SEEK_TERMINAL : VN_SEEK_AXIS;
+            low += vn_places_seek(g, p, seek, &node) > bound;
+            low += vn_places_seek(g, middle, seek, &node) + half > bound;
         }
     }
-    print_message("%dD, placement %d: %d of 12000 points are farther than their cell's bound\n", dim,
-                  placement, low);
+    print_message(
+        "%dD, placement %d: %d of 12000 points are farther than their cell's bound, or its middle\n", dim,
+        placement, low);
     assert_int_equal(low, 0);
     vn_cco_destroy(cco);
     vn_domain_release(domain);
