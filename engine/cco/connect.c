@@ -129,14 +129,16 @@ static vn_status judge_once(vn_cco *cco, vn_grower *g, vn_plan *plan, vn_verdict
     return *verdict == VN_ALLOWED ? vn_rules_judge(cco, g, plan, verdict) : VN_OK;
 }
 
+// The first is the parent of the others.
 static vn_status insert_all(vn_grower *g, const int32_t *nodes, const double *caps, int count) {
     for (int i = 0; i < count; i++) {
         vn_vessel_of(g, nodes[i])->cap = vn_cap_below(caps[i]);
         VN_TRY(vn_places_insert(g, nodes[i]));
     }
-    for (int i = count - 1; i >= 0; i--) {
-        vn_tree_settle(&g->tree, nodes[i]);
+    for (int i = count - 1; i > 0; i--) {
+        vn_tree_settle_one(&g->tree, nodes[i]);
     }
+    vn_tree_settle(&g->tree, nodes[0]);
     return VN_OK;
 }
 
