@@ -227,14 +227,17 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
 // Estimates are linear from where the flow is this many times that of the terminal.
 static const double LINEAR_FROM = 24;
 
+// `known`: the effect at x is.
 static bool least_from(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
-                       double tolerance, int rounds, double x[2], vn_effect *effect) {
+                       double tolerance, int rounds, bool known, double x[2], vn_effect *effect) {
     double size = t->distal + t->across[1];
     for (int i = 0;; i++) {
         vn_branch branches[3];
-        vn_triangle_branches(t, x, branches);
-        *effect = adjoints != NULL ? vn_tree_estimate(tree, adjoints, node, &branches[0], LINEAR_FROM)
-                                   : vn_tree_effect(tree, node, &branches[0]);
+        if (i > 0 || !known) {
+            vn_triangle_branches(t, x, branches);
+            *effect = adjoints != NULL ? vn_tree_estimate(tree, adjoints, node, &branches[0], LINEAR_FROM)
+                                       : vn_tree_effect(tree, node, &branches[0]);
+        }
         if (i == rounds) {
             return true;
         }
@@ -253,12 +256,21 @@ static bool least_from(const vn_tree *tree, vn_adjoints *adjoints, int32_t node,
 
 // A new vessel of no length has no resistance, so both ends of thin vessels are minima as well: a way that
 // runs into one is no proof that there is none inside, and another start, near Equation 8's, may find it.
-bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
-                          double tolerance, int rounds, double x[2], vn_effect *effect) {
-    if (least_from(tree, adjoints, node, t, tolerance, rounds, x, effect)) {
-        return true;
-    }
+static bool least_elsewhere(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                            double tolerance, int rounds, double x[2], vn_effect *effect) {
     x[0] = t->distal / 2;
     x[1] = t->across[1] / 4;
-    return least_from(tree, adjoints, node, t, tolerance, rounds, x, effect);
+    return least_from(tree, adjoints, node, t, tolerance, rounds, false, x, effect);
+}
+
+bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
+                          double tolerance, int rounds, double x[2], vn_effect *effect) {
+    return least_from(tree, adjoints, node, t, tolerance, rounds, false, x, effect) ||
+           least_elsewhere(tree, adjoints, node, t, tolerance, rounds, x, effect);
+}
+
+bool vn_bifurcation_refine(const vn_tree *tree, int32_t node, const vn_triangle *t, double tolerance,
+                           int rounds, double x[2], vn_effect *effect) {
+    return least_from(tree, NULL, node, t, tolerance, rounds, true, x, effect) ||
+           least_elsewhere(tree, NULL, node, t, tolerance, rounds, x, effect);
 }

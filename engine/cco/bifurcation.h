@@ -39,6 +39,10 @@ bool vn_triangle_minimum(const vn_triangle *t, double by_resistance, double by_v
 bool vn_bifurcation_least(const vn_tree *tree, vn_adjoints *adjoints, int32_t node, const vn_triangle *t,
                           double tolerance, int rounds, double x[2], vn_effect *effect);
 
+/// The same, exactly, from a point whose vn_tree_effect() is known: @p effect.
+bool vn_bifurcation_refine(const vn_tree *tree, int32_t node, const vn_triangle *t, double tolerance,
+                           int rounds, double x[2], vn_effect *effect);
+
 /// Equations 8 to 13 of the paper, after Kamiya and Togawa: rounds of radii from the whole tree, pressure
 /// drops (9), the system (12), the weighted mean (13); until the tree's volume stands still to @p tolerance,
 /// relative, or @p rounds are done. Its point is not quite that of least volume (READINGS R13). @p solve

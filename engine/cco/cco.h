@@ -24,7 +24,9 @@ typedef struct vn_candidate {
     int32_t node; ///< whose segment
     double x[2];  ///< the bifurcation, in the triangle's plane
     vn_effect effect;
-    bool refined; ///< x is the point of least volume to the last digit
+    bool measured; ///< the effect is exact
+    bool refined;  ///< x is the point of least volume to the last digit
+    bool hopeless; ///< far too short to be refined
     vn_triangle triangle;
 } vn_candidate;
 
