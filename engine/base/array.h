@@ -19,6 +19,13 @@
          ? VN_OK                                                                                             \
          : vn_array_grow(&(array)->data, &(array)->capacity, (need), sizeof *(array)->data))
 
+/// The same with little room to spare, for what is the largest part of a thing: the array is moved more
+/// often.
+#define vn_array_reserve_tightly(array, need)                                                                \
+    ((int64_t)(need) <= (array)->capacity                                                                    \
+         ? VN_OK                                                                                             \
+         : vn_array_grow_tightly(&(array)->data, &(array)->capacity, (need), sizeof *(array)->data))
+
 /// Append one element; a status.
 #define vn_array_push(array, value)                                                                          \
     (vn_array_reserve((array), (int64_t)(array)->count + 1) == VN_OK                                         \
@@ -44,6 +51,9 @@
 
 /// What vn_array_reserve() calls: @p data_slot is the address of the array's data pointer.
 vn_status vn_array_grow(void *data_slot, int32_t *capacity, int64_t need, size_t element_size);
+
+/// What vn_array_reserve_tightly() calls.
+vn_status vn_array_grow_tightly(void *data_slot, int32_t *capacity, int64_t need, size_t element_size);
 
 /// What vn_array_trim() calls.
 void vn_array_shrink(void *data_slot, int32_t *capacity, int32_t count, size_t element_size);

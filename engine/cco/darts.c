@@ -78,7 +78,8 @@ static vn_status put(vn_darts *darts, int32_t cell, const box *b) {
     vn_dart_cell *c = &darts->cells.data[cell];
     int class = class_of(darts, c->bound);
     vn_dart_bin *bin = bin_of(darts, class, b->level);
-    VN_TRY(vn_array_push(&bin->cells, cell));
+    VN_TRY(vn_array_reserve_tightly(&bin->cells, (int64_t)bin->cells.count + 1));
+    bin->cells.data[bin->cells.count++] = cell;
     darts->levels[class] |= 1u << b->level;
     c->link = bin->cells.count - 1;
     account(darts, class, c, b->side, 1);
@@ -96,6 +97,9 @@ static void take(vn_darts *darts, int32_t cell, const box *b) {
     account(darts, class, c, b->side, -1);
     if (bin->cells.count == 0) {
         darts->levels[class] &= ~(1u << b->level);
+    }
+    if (bin->cells.count < bin->cells.capacity / 2) {
+        vn_array_trim(&bin->cells);
     }
     if (darts->levels[class] == 0) { // what rounding left of the sums
         darts->volume[class] = darts->mass[class] = 0;
@@ -235,7 +239,7 @@ static double farthest(const vn_darts *darts, const box *b, int32_t vessel, cons
 static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_dart_search *search) {
     vn_dart_cell whole = darts->cells.data[cell];
     int32_t first = darts->cells.count;
-    VN_TRY(vn_array_reserve(&darts->cells, (int64_t)first + children_of(darts)));
+    VN_TRY(vn_array_reserve_tightly(&darts->cells, (int64_t)first + children_of(darts)));
     take(darts, cell, b);
     darts->cells.data[cell].link = ~first;
     for (int i = 0; i < children_of(darts); i++) {

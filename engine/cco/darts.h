@@ -12,7 +12,7 @@
 #include "base/array.h"
 #include "venule/cco.h"
 
-enum { VN_DART_LEVELS = 18, VN_DART_CLASSES = 200, VN_DART_WHOLE = 1023 };
+enum { VN_DART_LEVELS = 18, VN_DART_CLASSES = 140, VN_DART_WHOLE = 1023 };
 
 typedef struct vn_dart_cell {
     uint64_t at : 54;   ///< which cell of its level, 18 bits for each direction

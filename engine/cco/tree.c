@@ -120,7 +120,7 @@ vn_effect vn_tree_effect(const vn_tree *tree, int32_t node, const vn_branch *bra
 
 // ---- To first order ----
 
-enum { ADJOINTS = 1 << 12 };
+enum { ADJOINTS_BITS = 9 };
 
 void vn_adjoints_free(vn_adjoints *adjoints) {
     vn_array_free(&adjoints->known);
@@ -128,14 +128,14 @@ void vn_adjoints_free(vn_adjoints *adjoints) {
 
 vn_status vn_adjoints_begin(vn_adjoints *adjoints) {
     if (adjoints->known.count == 0) {
-        VN_TRY(vn_array_zero(&adjoints->known, ADJOINTS));
+        VN_TRY(vn_array_zero(&adjoints->known, 1 << ADJOINTS_BITS));
     }
     adjoints->round++;
     return VN_OK;
 }
 
 static vn_adjoint *slot_of(const vn_adjoints *adjoints, int32_t node) {
-    return &adjoints->known.data[((uint32_t)node * 2654435761u) >> 20];
+    return &adjoints->known.data[((uint32_t)node * 2654435761u) >> (32 - ADJOINTS_BITS)];
 }
 
 static vn_adjoint of_stem(const vn_tree *tree, int32_t node) {

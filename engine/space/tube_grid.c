@@ -106,7 +106,7 @@ static vn_status list(vn_tube_grid *grid, int32_t cell, int32_t tube) {
     if (at >= 0) {
         grid->spare = grid->entries.data[at].next;
     } else {
-        VN_TRY(vn_array_reserve(&grid->entries, (int64_t)grid->entries.count + 1));
+        VN_TRY(vn_array_reserve_tightly(&grid->entries, (int64_t)grid->entries.count + 1));
         at = grid->entries.count++;
     }
     grid->entries.data[at] = (vn_tube_entry){tube, grid->heads.data[cell]};
