@@ -596,6 +596,7 @@ static bool is_taken(const double p[3], void *payload) {
 // to the gap have, and they can take more again.
 static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, int32_t attempt, double p[3]) {
     enum { NEAREST = 20 };
+    const double cells = 5.75; // a terminal: more take memory and bring next to nothing
     draw d = {cco, g};
     double share = vn_domain_measure(cco->part) / (g->terminals - g->stage_start + 1);
     double threshold = cco->def.spacing * pow(share, 1.0 / cco->dim); // (15), READINGS R11
@@ -603,6 +604,7 @@ static vn_status draw_terminal(const vn_cco *cco, vn_grower *g, int32_t tree, in
     vn_dart_search search = {.threshold = threshold,
                              .factor = cco->def.threshold,
                              .tries = cco->def.tries,
+                             .most_cells = (int32_t)fmin(cells * g->terminals + 64, INT32_MAX),
                              .distance = distance_to_tree,
                              .distance_to = distance_to_vessel,
                              .refuse = is_taken,

@@ -250,7 +250,8 @@ static vn_status divide(vn_darts *darts, int32_t cell, const box *b, const vn_da
     return VN_OK;
 }
 
-// Cells much smaller than the threshold would tell little more, and there would be many.
+// Cells much smaller than the threshold would tell little more, and there would be many. In space their
+// number would still leap whenever the threshold comes below a power of two.
 static const double SMALLEST = 1.0;
 
 // A dart in this cell was in vain: the vessel that refused it bounds the cell, or its parts.
@@ -259,7 +260,7 @@ static vn_status learn(vn_darts *darts, int32_t cell, const box *b, const vn_dar
     vn_dart_cell *c = &darts->cells.data[cell];
     double bound = fmin(c->bound, farthest(darts, b, c->witness[0], search));
     if (bound > threshold && half_diagonal(darts, b->side) > SMALLEST * threshold &&
-        b->level < VN_DART_LEVELS - 1) {
+        b->level < VN_DART_LEVELS - 1 && darts->cells.count < search->most_cells) {
         return divide(darts, cell, b, search);
     }
     return set_bound(darts, cell, b, bound);

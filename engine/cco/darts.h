@@ -53,6 +53,7 @@ void vn_darts_free(vn_darts *darts);
 typedef struct vn_dart_search {
     double threshold, factor; ///< after so many tries in vain the threshold is multiplied by the factor
     int32_t tries;
+    int32_t most_cells; ///< cells are not divided any more when there are as many
     /// The distance from @p p to the nearest vessel, whose number is @p vessel then.
     double (*distance)(const double p[3], int32_t *vessel, void *payload);
     double (*distance_to)(const double p[3], int32_t vessel, void *payload);

@@ -41,7 +41,7 @@ static vn_status tell_all(vn_darts *darts, const vessels *v) {
 }
 
 static vn_dart_search search_of(vessels *v, double threshold, double factor, int32_t tries) {
-    return (vn_dart_search){threshold, factor, tries, distance, distance_to, refuse, v};
+    return (vn_dart_search){threshold, factor, tries, INT32_MAX, distance, distance_to, refuse, v};
 }
 
 static vessels random_vessels(const vn_domain *region, int32_t count, vn_rng *rng) {
@@ -143,6 +143,7 @@ static void compare(place *at, double threshold, double factor, int32_t tries, i
     vn_rng rng = vn_rng_make(seed);
     vessels v = random_vessels(at->region, 12, &rng);
     vn_dart_search search = search_of(&v, threshold, factor, tries);
+    search.most_cells = seed % 2 == 0 ? INT32_MAX : 100;
     vn_darts darts = {0};
     assert_ok(vn_darts_init(&darts, vn_domain_dim(at->region), at->region, 0, at->density, NULL, &rng));
     at->mean = darts.mean;
@@ -308,7 +309,9 @@ static void bounds_hold_while_vessels_move(void **state) {
             vn_dart_search search = search_of(&v, 8 / sqrt(v.count), 0.9, 100);
             double p[3];
             int64_t thrown = 0;
+            search.most_cells = i % 2 == 0 ? INT32_MAX : 50;
             assert_ok(vn_darts_throw(&darts, &search, &rng, p, &thrown));
+            assert_true(darts.cells.count - 8 < search.most_cells);
             grow(&darts, &v, p, &rng);
             check_bounds(&darts, region, &v, &rng);
         }
