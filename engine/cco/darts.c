@@ -378,7 +378,10 @@ static void aim(const vn_darts *darts, const live *l, vn_rng *rng, pick *p) {
     enum { MOST = 100000 };
     for (int i = 0; i < MOST; i++) {
         *p = pick_one(darts, l, rng);
-        if (p->class < 0 || !is_vain(darts, l, p)) {
+        if (p->level < 0) {
+            break;
+        }
+        if (!is_vain(darts, l, p)) {
             return;
         }
         if (probably_lands(darts, p->class, rng)) {
