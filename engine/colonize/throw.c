@@ -24,6 +24,9 @@ static const vn_field throw_fields[] = {
      NULL, "birth distance b_v: a dart this close to a node of `network` is refused; left out: none is"},
     {"network", VN_OBJECT, 0, offsetof(vn_throw_def, network), 0, 0, "", "network",
      "what `clearance` keeps clear of"},
+    {"weight", VN_MIXED, 0, offsetof(vn_throw_def, weight), 0, 0, "", "a domain, or a function (x, y[, z])",
+     "what part of the darts is kept at a place, 0 to 1: a map's values, or what the function returns; left "
+     "out: all"},
     {"rng", VN_OBJECT, VN_REQUIRED, offsetof(vn_throw_def, rng), 0, 0, "", "rng",
      "the random numbers: venule.rng(seed)"},
 };
@@ -38,16 +41,24 @@ enum { DARTS_AT_ONCE = 1 << 14 };
 
 /// Darts that fly in parallel: each from random numbers of its own.
 typedef struct volley {
-    const vn_domain *domain;
+    const vn_throw_def *def;
     vn_rng rng;
-    int64_t first; ///< the number of the first dart of this volley
-    double (*at)[3];
+    int64_t first;        ///< the number of the first dart of this volley
+    double (*at)[3];      ///< x is NAN where `weight` did not keep the dart
     atomic_bool hopeless; ///< one dart has missed a million times: the others need not try
 } volley;
 
 static vn_rng dart_rng(const volley *v, int64_t dart) {
     return (vn_rng){.seed = v->rng.seed,
                     .stream = vn_hash_here(v->rng.seed, v->rng.stream, (uint64_t)dart, 2)};
+}
+
+// By a number apart from the dart's own: the places are those of a throw without weight.
+static void keep_by(const volley *v, int64_t k, double weight) {
+    uint64_t stream = vn_hash(v->rng.seed, v->rng.stream, (uint64_t)(v->first + k), 3);
+    if (!(vn_random_at(v->rng.seed, stream, 0) < weight)) {
+        v->at[k][0] = NAN;
+    }
 }
 
 static void fly(int64_t begin, int64_t end, void *payload) {
@@ -57,10 +68,31 @@ static void fly(int64_t begin, int64_t end, void *payload) {
             return;
         }
         vn_rng rng = dart_rng(v, v->first + k);
-        if (vn_domain_dart(v->domain, &rng, v->at[k]) != VN_OK) {
+        if (vn_domain_dart(v->def->domain, &rng, v->at[k]) != VN_OK) {
             atomic_store_explicit(&v->hopeless, true, memory_order_relaxed);
+        } else if (v->def->weight != NULL) {
+            keep_by(v, k, vn_domain_value(v->def->weight, v->at[k]));
         }
     }
+}
+
+// A function may be the script's: it is asked in order, by one thread.
+static vn_status ask_weights(const volley *v, int32_t count) {
+    const vn_throw_def *def = v->def;
+    for (int32_t k = 0; def->weight_at != NULL && k < count; k++) {
+        double weight = 0;
+        const double *p = v->at[k];
+        if (isnan(p[0])) {
+            continue;
+        }
+        VN_TRY(def->weight_at(&weight, p, def->weight_payload));
+        if (!(weight >= 0 && weight <= 1)) {
+            return vn_fail(VN_INVALID, "throw.weight is %g at (%g, %g, %g); it must be between 0 and 1",
+                           weight, p[0], p[1], p[2]);
+        }
+        keep_by(v, k, weight);
+    }
+    return VN_OK;
 }
 
 static bool is_present(int32_t i, void *payload) {
@@ -255,7 +287,8 @@ static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v
         VN_TRY(vn_attractors_grid(a, cell_for(a, def->spacing)));
     }
     for (int32_t k = 0; k < count; k++) {
-        if (!covered || !vn_cover_holds(&a->cover, v->at[k])) {
+        bool kept = !isnan(v->at[k][0]);
+        if (kept && !(covered && vn_cover_holds(&a->cover, v->at[k]))) {
             VN_TRY(land_one(&r, v->at[k], accepted));
         }
     }
@@ -264,9 +297,10 @@ static vn_status land(vn_attractors *a, const vn_throw_def *def, const volley *v
 
 static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t darts, int32_t *accepted) {
     int64_t room = darts < DARTS_AT_ONCE ? darts : DARTS_AT_ONCE;
-    volley v = {.domain = def->domain, .rng = vn_rng_fork(def->rng)};
+    volley v = {.def = def, .rng = vn_rng_fork(def->rng)};
     v.at = vn_resize(NULL, 0, (size_t)room * sizeof *v.at);
-    bool all_stick = def->spacing <= 0 && def->clearance <= 0;
+    bool weighed = def->weight != NULL || def->weight_at != NULL;
+    bool all_stick = !weighed && def->spacing <= 0 && def->clearance <= 0;
     vn_status status = all_stick ? vn_attractors_expect(a, darts) : VN_OK;
     if (room > 0 && v.at == NULL) {
         status = vn_fail_memory("darts", (size_t)room * sizeof *v.at);
@@ -274,7 +308,8 @@ static vn_status throw_darts(vn_attractors *a, const vn_throw_def *def, int64_t 
     for (; status == VN_OK && v.first < darts; v.first += DARTS_AT_ONCE) {
         int32_t count = (int32_t)(darts - v.first < DARTS_AT_ONCE ? darts - v.first : DARTS_AT_ONCE);
         vn_parallel_for(count, 1024, fly, &v);
-        status = v.hopeless ? vn_domain_fail_dart(def->domain) : land(a, def, &v, count, accepted);
+        status = v.hopeless ? vn_domain_fail_dart(def->domain) : ask_weights(&v, count);
+        status = status == VN_OK ? land(a, def, &v, count, accepted) : status;
     }
     vn_resize(v.at, v.at != NULL ? (size_t)room * sizeof *v.at : 0, 0);
     return status;
@@ -377,7 +412,11 @@ static vn_status sow(vn_attractors *a, const vn_throw_def *def) {
     vn_box bounds;
     double grown;
     def->domain->kind->margin->grown(def->domain, &bounds, &grown);
-    vn_throw_def all = {.spacing = def->spacing, .rng = def->rng};
+    vn_throw_def all = *def;
+    all.domain = NULL;
+    all.network = NULL;
+    all.clearance = 0;
+    all.count = 0;
     vn_attractors_def set = {.dim = 2};
     vn_attractors *sown = NULL;
     vn_status status = square_of(&all.domain, &bounds);
@@ -437,6 +476,10 @@ static vn_status check_throw(const vn_attractors *a, const vn_throw_def *def) {
     if (vn_domain_dim(def->domain) != a->dim) {
         return vn_fail(VN_INVALID, "throw.domain has %d dimensions, the attractors %d",
                        vn_domain_dim(def->domain), a->dim);
+    }
+    if (def->weight != NULL && vn_domain_dim(def->weight) != a->dim) {
+        return vn_fail(VN_INVALID, "throw.weight has %d dimensions, the attractors %d",
+                       vn_domain_dim(def->weight), a->dim);
     }
     if (def->clearance > 0 && def->network == NULL) {
         return vn_fail(VN_INVALID, "throw.clearance needs throw.network: the nodes to keep clear of");

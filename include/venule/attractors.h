@@ -42,6 +42,9 @@ VN_API vn_retired vn_attractors_retired(const vn_attractors *attractors);
 /// Those that wait beyond a marginal blade's margin.
 VN_API int32_t vn_attractors_dormant(const vn_attractors *attractors);
 
+/// What part of the darts is kept at a point, 0 to 1, from whoever knows. VN_CALLBACK when it fails.
+typedef vn_status vn_weight_fn(double *weight, const double p[3], void *payload);
+
 typedef struct vn_throw_def {
     vn_domain *domain; ///< where; held by the set until it is destroyed when its margin grows
     int32_t count;     ///< darts; or
@@ -50,14 +53,21 @@ typedef struct vn_throw_def {
     double spacing;   ///< birth distance b_s: a dart this close to an attractor is refused; 0: none is
     double clearance; ///< birth distance b_v: a dart this close to a node of `network` is refused; 0: none is
     vn_network *network; ///< what to keep clear of; may be NULL
-    vn_rng *rng;         ///< required; moves on by one
+    vn_domain *weight; ///< a dart is kept with the probability vn_domain_value() of this where it falls; may
+                       ///< be NULL
+    vn_weight_fn *weight_at; ///< or with this one's; may be NULL. Called by one thread, dart after dart
+    void *weight_payload;
+    vn_rng *rng; ///< required; moves on by one
 } vn_throw_def;
 VN_API vn_throw_def vn_throw_def_default(void);
-/// Throw darts, uniformly distributed over the domain; one after another each is accepted when it is farther
-/// than `spacing` from all attractors, those of this call included, and farther than `clearance` from all
-/// nodes. Into a marginal growth, the darts of the whole grown shape's square are thrown once, and each call
-/// releases those that the margin has passed since (READINGS R2). @p accepted gets how many were added.
-/// VN_INFEASIBLE when no dart can hit the domain.
+/// Throw darts, uniformly distributed over the domain. Each is kept with the probability that `weight` has
+/// where it falls (the lesser, where both kinds of weight are given): so the darts are as dense as the
+/// weight, and `count` or `density` where that is 1. One after another each of those is accepted when it is
+/// farther than `spacing` from all attractors, those of this call included, and farther than `clearance` from
+/// all nodes. Into a marginal growth, the darts of the whole grown shape's square are thrown once, and
+/// weighed all over that square; each call releases those that the margin has passed since (READINGS R2). @p
+/// accepted gets how many were added. VN_INFEASIBLE when no dart can hit the domain, VN_INVALID for a weight
+/// that is not from 0 to 1.
 VN_API vn_status vn_throw(vn_attractors *attractors, const vn_throw_def *def, int32_t *accepted);
 /// Release the dormant attractors that the margin of the domain has passed; what vn_throw() does by itself.
 VN_API vn_status vn_release(vn_attractors *attractors, vn_network *network, int32_t *released);

@@ -28,12 +28,85 @@ static int attractors_add(lua_State *L) {
     return 0;
 }
 
+/// A throw under way, in stack indices: what its weight is asked with.
+typedef struct throwing {
+    lua_State *L;
+    int dim, function, network, error;
+} throwing;
+
+// A script's own error travels as it was raised.
+static vn_status ask_weight(double *weight, const double p[3], void *payload) {
+    const throwing *t = payload;
+    lua_State *L = t->L;
+    lua_pushvalue(L, t->function);
+    if (lua_pcall(L, vnl_push_coordinates(L, t->dim, p), 1, 0) != LUA_OK) {
+        lua_replace(L, t->error);
+        return vn_fail(VN_CALLBACK, "throw.weight failed");
+    }
+    bool number = lua_type(L, -1) == LUA_TNUMBER;
+    const char *got = luaL_typename(L, -1);
+    *weight = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+    if (!number) {
+        return vn_fail(VN_INVALID,
+                       "throw.weight: the function has to return a number, got %s at (%g, %g, %g)", got, p[0],
+                       p[1], p[2]);
+    }
+    if (!lua_isnil(L, t->network) && vnl_test(L, t->network, &vnl_network_class) == NULL) {
+        return vn_fail(VN_INVALID, "throw.weight: the function has closed the network to keep clear of");
+    }
+    return VN_OK;
+}
+
+static void push_option(lua_State *L, const char *name) {
+    if (lua_istable(L, 2)) {
+        vnl_raw_field(L, 2, name);
+    } else {
+        lua_pushnil(L); // the reader says what is wrong with the options
+    }
+}
+
+// Allocates nothing: what was open stays open.
+static void set_weight(lua_State *L, throwing *t, vn_throw_def *def) {
+    def->weight = vnl_test_domain(L, t->function);
+    if (lua_isfunction(L, t->function)) {
+        def->weight_at = ask_weight;
+        def->weight_payload = t;
+    } else if (!lua_isnil(L, t->function) && def->weight == NULL) {
+        vnl_fail(L, "throw.weight: a function or a domain expected, got %s", luaL_typename(L, t->function));
+    }
+}
+
+// While darts fly, the box is empty, and the domain is held once more: the function that weighs them can
+// neither close nor fill what they fall into.
+static vn_status throw_shut(void **box, const vn_throw_def *def, int32_t *accepted) {
+    vn_attractors *attractors = *box;
+    vn_domain *held = vn_domain_retain(def->domain);
+    *box = NULL;
+    vn_status status = vn_throw(attractors, def, accepted);
+    *box = attractors;
+    vn_domain_release(held);
+    return status;
+}
+
 static int attractors_throw(lua_State *L) {
     vn_throw_def def;
+    throwing t = {.L = L, .function = 3, .network = 4, .error = 5};
     int32_t accepted;
+    lua_settop(L, 2);
+    luaL_checkstack(L, 24, "throw");
+    push_option(L, "weight");
+    push_option(L, "network");
+    lua_pushnil(L);
     vnl_read_options(L, 2, &vn_throw_schema, &def);
-    vn_attractors *attractors = check_attractors(L);
-    vnl_try(L, vn_throw(attractors, &def, &accepted));
+    set_weight(L, &t, &def);
+    t.dim = vn_attractors_dim(check_attractors(L));
+    vn_status status = throw_shut(lua_touserdata(L, 1), &def, &accepted);
+    if (status == VN_CALLBACK) {
+        lua_settop(L, t.error);
+        return lua_error(L);
+    }
+    vnl_try(L, status);
     lua_pushinteger(L, accepted);
     return 1;
 }
@@ -81,7 +154,13 @@ static const vnl_function methods[] = {
     {"throw", attractors_throw, "(options: venule.throw.Options): integer", NULL,
      "Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all "
      "attractors and "
-     "farther than `clearance` from all nodes of `network` (Runions §3.3).",
+     "farther than `clearance` from all nodes of `network` (Runions §3.3). With a `weight`, first each is "
+     "kept "
+     "with that probability: a map's values (`venule.domain.image`, `venule.domain.volume`), 1 inside any "
+     "other "
+     "domain and 0 outside, or what a function of the place returns, from 0 to 1. A marginal growth's darts "
+     "are "
+     "weighed once, all over its square.",
      &vn_throw_schema},
     {"influence", attractors_influence,
      "(network: venule.Network, options?: venule.influence.Options): venule.Influence", NULL,

@@ -81,6 +81,55 @@ function testAVolIsADomain()
   end)
 end
 
+-- Rauch & Harders's regions of oxygen deficiency: a map says how many of the darts stay.
+function testDartsAreWeighedByAMap()
+  with_file(".pgm", picture, function(path)
+    local map = venule.domain.image(path, {threshold = 0, pixel = 3})
+    local box = venule.domain.box {min = {0, 0}, max = {6, 6}}
+    local a, counts = venule.attractors {}, {}
+    local stuck = a:throw {domain = box, count = 8000, weight = map, rng = venule.rng(2)}
+    lu.assertEquals(stuck, #a)
+    for i = 1, #a do
+      local v = map:value(a.x[i], a.y[i])
+      counts[v] = (counts[v] or 0) + 1
+    end
+    lu.assertNil(counts[0])
+    for v, n in pairs(counts) do lu.assertAlmostEquals(n, 2000 * v, 150) end
+    local same = venule.attractors {}
+    same:throw {domain = box, count = 8000, weight = function(x, y) return map:value(x, y) end, rng = venule.rng(2)}
+    lu.assertEquals(#same, #a)
+    for i = 1, #a do lu.assertEquals(same.x[i], a.x[i]) end
+  end)
+end
+
+function testDartsAreWeighedByAFunction()
+  local ball, a = venule.domain.sphere {}, venule.attractors {dim = 3}
+  a:throw {domain = ball, count = 2000, weight = function(_, _, z) return z > 0 and 1 or 0 end, rng = venule.rng(2)}
+  lu.assertAlmostEquals(#a, 1000, 90)
+  for i = 1, #a do lu.assertTrue(a.z[i] > 0) end
+end
+
+function testAWeightThatFailsIsNamed()
+  local ball = venule.domain.sphere {}
+  local function by(weight, a, network)
+    a = a or venule.attractors {dim = 3}
+    a:throw {domain = ball, count = 5, weight = weight, clearance = network and 0.1, network = network, rng = venule.rng(2)}
+  end
+  fails(function() by(0.5) end, "throw.weight: a function or a domain expected, got number")
+  fails(function() by(function() end) end, "throw.weight: the function has to return a number, got nil at (")
+  fails(function() by(function() return 2 end) end, "throw.weight is 2 at (")
+  fails(function() by(function() return 0 / 0 end) end, "it must be between 0 and 1")
+  fails(function() by(function() error "oh dear" end) end, "oh dear")
+  fails(function() by(venule.domain.disk {}) end, "throw.weight has 2 dimensions, the attractors 3")
+  local a, net = venule.attractors {dim = 3}, venule.network {dim = 3}
+  fails(function() by(function() a:close() return a:add(0, 0, 0) end, a) end, "this attractors is closed")
+  a:add(0, 0, 0) -- it was not: nobody closes what darts fall into
+  lu.assertEquals(#a, 1)
+  fails(function() by(function() net:close() return 1 end, a, net) end, "throw.weight: the function has closed the network")
+  by(function() ball:close() collectgarbage() return 1 end, a)
+  lu.assertEquals(#a, 6)
+end
+
 -- What is written as voxels is the same domain again, at the same place.
 function testVoxelsOfANetworkComeBack()
   local net = venule.network {dim = 3, unit = "mm"}
