@@ -22,16 +22,13 @@ vn_status vn_attractors_carry(vn_attractors *a, vn_growth *growth) {
     if (!vn_growth_moves(growth)) {
         return VN_OK;
     }
-    if (a->dim != 2) {
-        return vn_fail(VN_INVALID,
-                       "growth:advance: attractors of %d dimensions in a flat blade whose tissue moves",
-                       a->dim);
-    }
+    VN_TRY(vn_growth_check_dim(growth, "attractors", a->dim));
     VN_TRY(vn_growth_note_carried(growth, a->serial, &first));
     if (!first) {
         return VN_OK;
     }
-    vn_status status = vn_growth_move_points(growth, a->x.data, a->y.data, a->x.count);
+    double *columns[3] = {a->x.data, a->y.data, a->z.data};
+    vn_status status = vn_growth_move_points(growth, columns, a->x.count);
     if (status == VN_OK) {
         forget_nodes(a);
     } else {

@@ -1,4 +1,5 @@
 #include "domain/domain.h"
+#include "domain/stretch.h"
 
 #include "space/points.h"
 
@@ -79,6 +80,13 @@ static vn_status box_triangles(const vn_domain *domain, vn_triangles *out) {
     return VN_OK;
 }
 
+static vn_status box_stretched(vn_domain **out, const vn_domain *domain, const vn_stretch *stretch) {
+    vn_box_def def = {.dim = 3};
+    vn_stretch_point(stretch, domain->bounds.min, def.min);
+    vn_stretch_point(stretch, domain->bounds.max, def.max);
+    return vn_domain_box(out, &def);
+}
+
 static const vn_domain_kind flat_kind = {.name = "box",
                                          .contains = box_contains,
                                          .closest = box_closest,
@@ -88,7 +96,8 @@ static const vn_domain_kind solid_kind = {.name = "box",
                                           .contains = box_contains,
                                           .closest = box_closest,
                                           .sees = box_sees,
-                                          .triangles = box_triangles};
+                                          .triangles = box_triangles,
+                                          .stretched = box_stretched};
 
 vn_status vn_domain_box(vn_domain **out, const vn_box_def *def) {
     *out = NULL;

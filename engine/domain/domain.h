@@ -28,6 +28,8 @@ typedef struct vn_triangles {
 } vn_triangles;
 void vn_triangles_free(vn_triangles *triangles);
 
+typedef struct vn_stretch vn_stretch;
+
 /// The functions of one kind of domain; those marked so may be NULL.
 typedef struct vn_domain_kind {
     const char *name;
@@ -57,6 +59,8 @@ typedef struct vn_domain_kind {
     /// The surface of what is in space, appended to an empty @p out; round ones to within a thousandth of
     /// their radius. NULL where nobody can tell.
     vn_status (*triangles)(const vn_domain *domain, vn_triangles *out);
+    /// One of its own kind, stretched (domain/stretch.h); NULL: vn_domain_stretch() has another.
+    vn_status (*stretched)(vn_domain **out, const vn_domain *domain, const vn_stretch *stretch);
     /// In [0, 1]; NULL: 1 inside and 0 outside.
     double (*value)(const vn_domain *domain, const double p[3]);
 } vn_domain_kind;

@@ -9,6 +9,7 @@
 #include "domain/domain.h"
 #include "domain/faces.h"
 #include "domain/seams.h"
+#include "domain/stretch.h"
 #include "space/exact.h"
 #include "space/triangle_columns.h"
 #include "space/triangle_meets.h"
@@ -132,13 +133,48 @@ static void inside_destroy(vn_domain *domain) {
     vn_array_free(&s->cells.not_out);
 }
 
+// Each triangle has corners of its own: vn_domain_inside() takes those at one place for one.
+static vn_status inside_triangles(const vn_domain *domain, vn_triangles *out) {
+    const vn_triangle_tree *tree = &inside_of(domain)->tree;
+    int32_t count = tree->triangles.count;
+    VN_TRY(vn_array_reserve(&out->xyz, 9 * (int64_t)count));
+    VN_TRY(vn_array_reserve(&out->corners, 3 * (int64_t)count));
+    out->xyz.count = 9 * count;
+    out->corners.count = 3 * count;
+    for (int32_t i = 0; i < count; i++) {
+        const vn_triangle *t = &tree->triangles.data[i];
+        int64_t number = tree->numbers.data[i];
+        memcpy(out->xyz.data + 9 * number, t->a, sizeof t->a);
+        memcpy(out->xyz.data + 9 * number + 3, t->b, sizeof t->b);
+        memcpy(out->xyz.data + 9 * number + 6, t->c, sizeof t->c);
+    }
+    for (int32_t h = 0; h < 3 * count; h++) {
+        out->corners.data[h] = h;
+    }
+    return VN_OK;
+}
+
+// What does not cross itself does not after.
+static vn_status inside_stretched(vn_domain **out, const vn_domain *domain, const vn_stretch *stretch) {
+    vn_triangles moved = {.xyz = {0}};
+    vn_status status = vn_stretch_triangles(domain, stretch, &moved);
+    if (status == VN_OK) {
+        status = vn_domain_inside(out, moved.xyz.data, moved.xyz.count / 3, moved.corners.data,
+                                  moved.corners.count / 3, false);
+    }
+    vn_triangles_free(&moved);
+    return status;
+}
+
 static const vn_domain_kind inside_kind = {.name = "mesh",
                                            .destroy = inside_destroy,
                                            .contains = inside_contains,
                                            .closest = inside_closest,
                                            .is_near = inside_is_near,
                                            .sees = inside_sees,
-                                           .dart = inside_dart};
+                                           .dart = inside_dart,
+                                           .triangles = inside_triangles,
+                                           .stretched = inside_stretched};
 
 // ---- Cells ----
 

@@ -4,6 +4,7 @@
 #include "domain/domain.h"
 #include "domain/faces.h"
 #include "domain/seams.h"
+#include "domain/stretch.h"
 #include "space/triangle_tree.h"
 
 // Halfedge 3t + k leads from corner k of triangle t to the next one.
@@ -283,6 +284,17 @@ static vn_status surface_triangles(const vn_domain *domain, vn_triangles *out) {
     return VN_OK;
 }
 
+static vn_status surface_stretched(vn_domain **out, const vn_domain *domain, const vn_stretch *stretch) {
+    vn_triangles moved = {.xyz = {0}};
+    vn_status status = vn_stretch_triangles(domain, stretch, &moved);
+    if (status == VN_OK) {
+        status = vn_domain_surface(out, moved.xyz.data, moved.xyz.count / 3, moved.corners.data,
+                                   moved.corners.count / 3);
+    }
+    vn_triangles_free(&moved);
+    return status;
+}
+
 static const vn_domain_kind surface_kind = {.name = "surface",
                                             .destroy = surface_destroy,
                                             .contains = surface_contains,
@@ -290,7 +302,8 @@ static const vn_domain_kind surface_kind = {.name = "surface",
                                             .sees = surface_sees,
                                             .dart = surface_dart,
                                             .snap = surface_snap,
-                                            .triangles = surface_triangles};
+                                            .triangles = surface_triangles,
+                                            .stretched = surface_stretched};
 
 static void include_place(vn_box *box, const double p[3]) {
     for (int k = 0; k < 3; k++) {

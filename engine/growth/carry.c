@@ -16,37 +16,59 @@ vn_status vn_growth_note_carried(vn_growth *growth, uint64_t serial, bool *first
     return *first ? vn_array_push(&growth->carried, serial) : VN_OK;
 }
 
+vn_status vn_growth_check_dim(const vn_growth *growth, const char *what, int dim) {
+    if (dim != growth->base.dim) {
+        return vn_fail(VN_INVALID, "growth:advance: %s of %d dimensions in a %s blade whose tissue moves",
+                       what, dim, growth->base.dim == 2 ? "flat" : "solid");
+    }
+    return VN_OK;
+}
+
 typedef struct moving {
     const vn_growth *growth;
-    const double *x, *y;
-    double *moved; ///< x, y of each point
+    double *const *columns;
+    double *moved; ///< the coordinates of each point
     atomic_bool lost;
 } moving;
 
 static void move_range(int64_t begin, int64_t end, void *payload) {
     moving *m = payload;
+    int dim = m->growth->base.dim;
     for (int64_t i = begin; i < end; i++) {
-        double p[3] = {m->x[i], m->y[i], 0}, q[3] = {0};
+        double p[3] = {0}, q[3] = {0};
+        for (int k = 0; k < dim; k++) {
+            p[k] = m->columns[k][i];
+        }
         bool found = m->growth->kind->move(m->growth, p, q);
-        if (!found || !(fabs(q[0]) <= VN_HUGE && fabs(q[1]) <= VN_HUGE)) {
+        for (int k = 0; k < dim; k++) {
+            found = found && fabs(q[k]) <= VN_HUGE;
+            m->moved[dim * i + k] = q[k];
+        }
+        if (!found) {
             atomic_store_explicit(&m->lost, true, memory_order_relaxed);
         }
-        m->moved[2 * i] = q[0];
-        m->moved[2 * i + 1] = q[1];
     }
 }
 
-vn_status vn_growth_move_points(vn_growth *growth, double *x, double *y, int32_t count) {
+static void store_moved(const moving *m, int32_t count) {
+    int dim = m->growth->base.dim;
+    for (int k = 0; k < dim; k++) {
+        for (int64_t i = 0; i < count; i++) {
+            m->columns[k][i] = m->moved[dim * i + k];
+        }
+    }
+}
+
+vn_status vn_growth_move_points(vn_growth *growth, double *const columns[3], int32_t count) {
     VN_TRY(growth->kind->prepare(growth, growth->time - 1, growth->time));
-    size_t size = 2 * (size_t)count * sizeof(double);
-    moving m = {.growth = growth, .x = x, .y = y, .moved = vn_resize(NULL, 0, size)};
+    size_t size = (size_t)growth->base.dim * (size_t)count * sizeof(double);
+    moving m = {.growth = growth, .columns = columns, .moved = vn_resize(NULL, 0, size)};
     if (m.moved == NULL && count > 0) {
         return vn_fail_memory("points that move", size);
     }
     vn_parallel_for(count, 256, move_range, &m);
-    for (int32_t i = 0; i < count && !m.lost; i++) {
-        x[i] = m.moved[2 * (int64_t)i];
-        y[i] = m.moved[2 * (int64_t)i + 1];
+    if (!m.lost) {
+        store_moved(&m, count);
     }
     vn_resize(m.moved, m.moved != NULL ? size : 0, 0);
     return m.lost
@@ -112,8 +134,13 @@ static vn_status split_edges(vn_network *network, double bound) {
     return VN_OK;
 }
 
+static double *coordinates(vn_network *network, int k) {
+    return k == 0 ? network->x.data : k == 1 ? network->y.data : network->z.data;
+}
+
 static vn_status move_nodes(vn_growth *growth, vn_network *network) {
-    VN_TRY(vn_growth_move_points(growth, network->x.data, network->y.data, network->x.count));
+    double *columns[3] = {coordinates(network, 0), coordinates(network, 1), coordinates(network, 2)};
+    VN_TRY(vn_growth_move_points(growth, columns, network->x.count));
     network->moved++;
     network->version++;
     return VN_OK;
@@ -122,33 +149,29 @@ static vn_status move_nodes(vn_growth *growth, vn_network *network) {
 // The room for the parts is known only when the nodes are where they go: without it they come back.
 static vn_status move_and_split(vn_growth *growth, vn_network *network) {
     double bound = growth->split * growth->unit;
-    size_t size = (size_t)network->x.count * sizeof(double);
-    double *old = vn_growth_moves(growth) && size > 0 ? vn_resize(NULL, 0, 2 * size) : NULL;
+    size_t size = (size_t)network->x.count * sizeof(double), whole = (size_t)network->dim * size;
+    double *old = vn_growth_moves(growth) && size > 0 ? vn_resize(NULL, 0, whole) : NULL;
     vn_status status = VN_OK;
     if (vn_growth_moves(growth) && size > 0) {
         if (old == NULL) {
-            return vn_fail_memory("a network's nodes", 2 * size);
+            return vn_fail_memory("a network's nodes", whole);
         }
-        memcpy(old, network->x.data, size);
-        memcpy(old + network->x.count, network->y.data, size);
+        for (int k = 0; k < network->dim; k++) {
+            memcpy(old + (int64_t)k * network->x.count, coordinates(network, k), size);
+        }
         status = move_nodes(growth, network);
     }
     status = status == VN_OK && bound > 0 ? make_room(network, bound) : status;
-    if (status != VN_OK && old != NULL) {
-        memcpy(network->x.data, old, size);
-        memcpy(network->y.data, old + network->x.count, size);
+    for (int k = 0; k < network->dim && status != VN_OK && old != NULL; k++) {
+        memcpy(coordinates(network, k), old + (int64_t)k * network->x.count, size);
     }
-    vn_resize(old, old != NULL ? 2 * size : 0, 0);
+    vn_resize(old, old != NULL ? whole : 0, 0);
     return status == VN_OK && bound > 0 ? split_edges(network, bound) : status;
 }
 
 vn_status vn_growth_carry(vn_growth *growth, vn_network *network) {
     bool first;
-    if (vn_growth_moves(growth) && network->dim != 2) {
-        return vn_fail(VN_INVALID,
-                       "growth:advance: a network of %d dimensions in a flat blade whose tissue moves",
-                       network->dim);
-    }
+    VN_TRY(vn_growth_moves(growth) ? vn_growth_check_dim(growth, "a network", network->dim) : VN_OK);
     VN_TRY(vn_growth_note_carried(growth, network->serial, &first));
     if (!first) {
         return VN_OK;

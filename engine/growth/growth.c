@@ -45,9 +45,15 @@ static vn_status find_origin(vn_growth *growth, const double *given) {
         memcpy(growth->origin, given, sizeof growth->origin);
         return VN_OK;
     }
+    if (growth->base.dim == 3) {
+        vn_box bounds = vn_domain_bounds(growth->shape);
+        for (int k = 0; k < 3; k++) {
+            growth->origin[k] = k == 1 ? bounds.min[1] : 0.5 * (bounds.min[k] + bounds.max[k]);
+        }
+        return VN_OK;
+    }
     vn_rings rings = {0};
-    vn_status status =
-        growth->base.dim == 2 ? vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings) : VN_OK;
+    vn_status status = vn_domain_outline(growth->shape, VN_FINE_SIDES, &rings);
     if (rings.y.count > 0) {
         vn_growth_lowest_point(&rings, growth->origin);
     }
@@ -60,12 +66,17 @@ static vn_status check_shape(const vn_growth_kind *kind, const vn_domain *domain
         return vn_fail(VN_INVALID, "a growth of a growing domain: give the shape itself");
     }
     if (domain->kind->snap != NULL && kind->domain.snap == NULL) {
-        return vn_fail(VN_INVALID, "%s.domain is a surface, which does not grow: use venule.growth.none",
+        return vn_fail(VN_INVALID,
+                       "%s.domain is a surface, which it does not move: use venule.growth.uniform, isogonic "
+                       "or none",
                        kind->name);
     }
-    if (kind->move != NULL && domain->dim != 2) {
-        return vn_fail(VN_INVALID, "%s.domain has %d dimensions; its tissue moves in the plane", kind->name,
-                       domain->dim);
+    bool flat = kind->domain.outline != NULL && (kind->move != NULL || kind->domain.margin != NULL);
+    if (flat && domain->dim != 2) {
+        return vn_fail(VN_INVALID,
+                       "%s.domain has %d dimensions, and this growth is of the plane: use "
+                       "venule.growth.uniform or isogonic",
+                       kind->name, domain->dim);
     }
     return VN_OK;
 }
@@ -96,6 +107,12 @@ vn_status vn_growth_make(vn_growth **out, const vn_growth_kind *kind, const vn_g
 
 vn_status vn_growth_set_lengths(vn_growth *growth, const vn_growth_def *def) {
     const char *name = growth->kind->name;
+    if (!(growth->own_length > 0)) {
+        return vn_fail(VN_INVALID,
+                       "%s.domain is flat across y, along which its length is measured: turn it, or use "
+                       "venule.growth.uniform",
+                       name);
+    }
     growth->to = def->to > 0 ? def->to : growth->own_length;
     growth->from = def->from > 0 ? def->from : growth->to / 20;
     growth->step = def->step > 0 ? def->step : (growth->to - growth->from) / 100;
@@ -135,6 +152,14 @@ static vn_status still_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
     return vn_domain_dart(((const vn_growth *)domain)->shape, rng, p);
 }
 
+static vn_status still_triangles(const vn_domain *domain, vn_triangles *out) {
+    return vn_domain_triangles(((const vn_growth *)domain)->shape, out);
+}
+
+static double still_value(const vn_domain *domain, const double p[3]) {
+    return vn_domain_value(((const vn_growth *)domain)->shape, p);
+}
+
 static const vn_growth_kind still_kind = {.name = "none",
                                           .size = sizeof(vn_growth),
                                           .domain = {.name = "blade",
@@ -143,7 +168,9 @@ static const vn_growth_kind still_kind = {.name = "none",
                                                      .closest = still_closest,
                                                      .sees = still_sees,
                                                      .dart = still_dart,
-                                                     .outline = still_outline}};
+                                                     .outline = still_outline,
+                                                     .triangles = still_triangles,
+                                                     .value = still_value}};
 
 static bool still_snap(const vn_domain *domain, const double p[3], double q[3]) {
     const vn_domain *shape = ((const vn_growth *)domain)->shape;
@@ -158,7 +185,8 @@ static const vn_growth_kind still_surface_kind = {.name = "none",
                                                              .closest = still_closest,
                                                              .sees = still_sees,
                                                              .dart = still_dart,
-                                                             .snap = still_snap}};
+                                                             .snap = still_snap,
+                                                             .triangles = still_triangles}};
 
 vn_status vn_growth_none(vn_growth **out, const vn_growth_def *def) {
     *out = NULL;

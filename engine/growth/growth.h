@@ -37,7 +37,7 @@ struct vn_growth {
     double own_length; ///< of `shape` in its own coordinates
     /// Scaled kinds: today's shape is `shape`, scaled about the origin by drawn / own_length.
     double drawn;
-    vn_domain *today; ///< moving tissue: today's shape, a polygon
+    vn_domain *today; ///< moving tissue: today's shape, a polygon or, in 3D, a stretched one
     double length, to, step, from;
     double unit, split;
     int32_t time, steps;
@@ -83,13 +83,20 @@ void vn_growth_resize(vn_growth *growth, double drawn);
 bool vn_scaled_contains(const vn_domain *domain, const double p[3]);
 double vn_scaled_closest(const vn_domain *domain, const double p[3], double q[3]);
 bool vn_scaled_sees(const vn_domain *domain, const double a[3], const double b[3]);
+double vn_scaled_value(const vn_domain *domain, const double p[3]);
+vn_status vn_scaled_triangles(const vn_domain *domain, vn_triangles *out);
+/// Of scaled surfaces.
+vn_status vn_scaled_dart(const vn_domain *domain, vn_rng *rng, double p[3]);
+bool vn_scaled_snap(const vn_domain *domain, const double p[3], double q[3]);
 vn_status vn_scaled_outline(const vn_domain *domain, int32_t sides, vn_rings *out);
 
-// What today's polygon answers, for the kinds of moving tissue.
+// What today's shape answers, for the kinds of moving tissue.
 bool vn_today_contains(const vn_domain *domain, const double p[3]);
 double vn_today_closest(const vn_domain *domain, const double p[3], double q[3]);
 bool vn_today_sees(const vn_domain *domain, const double a[3], const double b[3]);
 vn_status vn_today_outline(const vn_domain *domain, int32_t sides, vn_rings *out);
+/// Let @p shape be today's.
+void vn_today_replace(vn_growth *growth, vn_domain *shape);
 /// The `step` of moving tissue: the polygon of kind->outline() takes the place of the last one.
 vn_status vn_today_step(vn_growth *growth, int32_t time);
 /// What a new growth of moving tissue begins with: today's polygon, and the length after all steps.
@@ -104,8 +111,10 @@ vn_status vn_growth_note_carried(vn_growth *growth, uint64_t serial, bool *first
 static inline bool vn_growth_moves(const vn_growth *growth) {
     return growth->kind->move != NULL;
 }
-/// Move points by the last step: all of them or, on failure, none.
-vn_status vn_growth_move_points(vn_growth *growth, double *x, double *y, int32_t count);
+/// Move points by the last step: all of them or, on failure, none. @p columns: x, y and, in 3D, z.
+vn_status vn_growth_move_points(vn_growth *growth, double *const columns[3], int32_t count);
+/// VN_INVALID where @p what ("a network") has not the dimensions of the tissue that moves it.
+vn_status vn_growth_check_dim(const vn_growth *growth, const char *what, int dim);
 
 #define VN_TODAY_DOMAIN                                                                                      \
     {                                                                                                        \

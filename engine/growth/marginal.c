@@ -72,6 +72,7 @@ static const vn_growth_kind marginal_kind = {.name = "marginal",
                                                         .closest = vn_scaled_closest,
                                                         .sees = vn_scaled_sees,
                                                         .outline = vn_scaled_outline,
+                                                        .value = vn_scaled_value,
                                                         .margin = &marginal_margin,
                                                         .is_grown = vn_growth_is_grown_domain},
                                              .step = marginal_step};

@@ -10,16 +10,34 @@ static const vn_growth *growth_of(const vn_domain *domain) {
 }
 
 void vn_growth_to_shape(const vn_growth *growth, double length, const double p[3], double q[3]) {
-    double scale = growth->own_length / length;
+    double scale = length == growth->own_length ? 1 : growth->own_length / length;
+    if (scale == 1) { // and no rounding: what is on a surface stays on it
+        memcpy(q, p, 3 * sizeof *q);
+        return;
+    }
     for (int k = 0; k < 3; k++) {
         q[k] = k < growth->base.dim ? growth->origin[k] + (p[k] - growth->origin[k]) * scale : p[k];
     }
 }
 
+// A shape that is flat across y has a length of 0, and can only stay as it is.
+static double scale_of(const vn_growth *growth) {
+    return growth->drawn == growth->own_length ? 1 : growth->drawn / growth->own_length;
+}
+
+static void from_shape(const vn_growth *growth, const double p[3], double q[3]) {
+    double scale = scale_of(growth);
+    for (int k = 0; k < 3; k++) {
+        bool stays = k >= growth->base.dim || scale == 1;
+        q[k] = stays ? p[k] : growth->origin[k] + (p[k] - growth->origin[k]) * scale;
+    }
+}
+
 void vn_growth_resize(vn_growth *growth, double drawn) {
-    double scale = drawn / growth->own_length;
     growth->drawn = drawn;
-    growth->base.measure = growth->shape->measure * pow(scale, growth->base.dim);
+    double scale = scale_of(growth);
+    int power = growth->shape->kind->snap != NULL ? 2 : growth->base.dim;
+    growth->base.measure = growth->shape->measure * pow(scale, power);
     for (int k = 0; k < growth->base.dim; k++) {
         double origin = growth->origin[k];
         growth->base.bounds.min[k] = origin + (growth->shape->bounds.min[k] - origin) * scale;
@@ -35,14 +53,46 @@ bool vn_scaled_contains(const vn_domain *domain, const double p[3]) {
 
 double vn_scaled_closest(const vn_domain *domain, const double p[3], double q[3]) {
     const vn_growth *growth = growth_of(domain);
-    double scale = growth->drawn / growth->own_length;
     double in_shape[3], border[3];
     vn_growth_to_shape(growth, growth->drawn, p, in_shape);
     double d = growth->shape->kind->closest(growth->shape, in_shape, border);
-    for (int k = 0; k < 3; k++) {
-        q[k] = k < domain->dim ? growth->origin[k] + (border[k] - growth->origin[k]) * scale : p[k];
+    border[2] = domain->dim == 3 ? border[2] : p[2];
+    from_shape(growth, border, q);
+    return d * scale_of(growth);
+}
+
+double vn_scaled_value(const vn_domain *domain, const double p[3]) {
+    double q[3];
+    vn_growth_to_shape(growth_of(domain), growth_of(domain)->drawn, p, q);
+    return vn_domain_value(growth_of(domain)->shape, q);
+}
+
+vn_status vn_scaled_triangles(const vn_domain *domain, vn_triangles *out) {
+    VN_TRY(vn_domain_triangles(growth_of(domain)->shape, out));
+    for (int32_t i = 0; i < out->xyz.count; i += 3) {
+        double p[3];
+        memcpy(p, out->xyz.data + i, sizeof p);
+        from_shape(growth_of(domain), p, out->xyz.data + i);
     }
-    return d * scale;
+    return VN_OK;
+}
+
+vn_status vn_scaled_dart(const vn_domain *domain, vn_rng *rng, double p[3]) {
+    double q[3];
+    VN_TRY(vn_domain_dart(growth_of(domain)->shape, rng, q));
+    from_shape(growth_of(domain), q, p);
+    return VN_OK;
+}
+
+bool vn_scaled_snap(const vn_domain *domain, const double p[3], double q[3]) {
+    const vn_growth *growth = growth_of(domain);
+    double in_shape[3], on[3];
+    vn_growth_to_shape(growth, growth->drawn, p, in_shape);
+    bool found = growth->shape->kind->snap(growth->shape, in_shape, on);
+    if (found) {
+        from_shape(growth, on, q);
+    }
+    return found;
 }
 
 bool vn_scaled_sees(const vn_domain *domain, const double a[3], const double b[3]) {

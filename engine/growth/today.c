@@ -55,7 +55,7 @@ static vn_status check_simple(const vn_growth *growth, const vn_rings *rings, in
     return status == VN_INVALID ? VN_INFEASIBLE : status;
 }
 
-static void replace_today(vn_growth *growth, vn_domain *shape) {
+void vn_today_replace(vn_growth *growth, vn_domain *shape) {
     vn_domain_release(growth->today);
     growth->today = shape;
     growth->base.bounds = shape->bounds;
@@ -71,7 +71,7 @@ vn_status vn_today_step(vn_growth *growth, int32_t time) {
     status = status == VN_OK ? vn_domain_from_rings(&shape, &rings, growth->base.unit) : status;
     vn_rings_free(&rings);
     if (status == VN_OK) {
-        replace_today(growth, shape);
+        vn_today_replace(growth, shape);
     }
     return status;
 }

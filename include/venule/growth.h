@@ -3,7 +3,8 @@
 ///
 /// Time counts steps. Under none, marginal and isogonic growth the tissue keeps its coordinates. Under
 /// uniform, RERG and morph growth it moves: what lies in it is moved along by vn_growth_carry() and
-/// vn_attractors_carry(), and today's shape is a polygon made of the moved outline.
+/// vn_attractors_carry(), and today's shape is a polygon made of the moved outline. None, isogonic and
+/// uniform growth work in 3D, of solids and of surfaces; the others are of the plane.
 #ifndef VENULE_GROWTH_H
 #define VENULE_GROWTH_H
 
@@ -19,11 +20,12 @@ typedef struct vn_growth vn_growth;
 typedef struct vn_growth_def {
     vn_domain *domain; ///< the grown shape; held, not taken over
     double origin[3];  ///< the petiole, which stays where it is; used when `has_origin`
-    bool has_origin;   ///< false: the lowest point of the outline, or the middle of a flat base
-    double from;       ///< length at first, > 0; 0: a twentieth of `to`
-    double to;         ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
-    double step;       ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
-    double split;      ///< isogonic: vn_growth_carry() splits edges longer than this times the unit; 0: none
+    bool has_origin;   ///< false: the lowest point of the outline, or the middle of a flat base; in 3D the
+                     ///< middle of its bounds where y is least
+    double from;  ///< length at first, > 0; 0: a twentieth of `to`
+    double to;    ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
+    double step;  ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
+    double split; ///< isogonic: vn_growth_carry() splits edges longer than this times the unit; 0: none
 } vn_growth_def;
 VN_API vn_growth_def vn_growth_def_default(void);
 
@@ -43,15 +45,20 @@ VN_API vn_status vn_growth_marginal(vn_growth **out, const vn_growth_def *def);
 VN_API vn_status vn_growth_isogonic(vn_growth **out, const vn_growth_def *def);
 
 typedef struct vn_uniform_def {
-    vn_domain *domain; ///< the shape at first, flat; held, not taken over
+    vn_domain *domain; ///< the shape at first, flat or in 3D; held, not taken over
     double origin[3];  ///< the petiole, as in vn_growth_def
     bool has_origin;
-    double x, y;   ///< growth factors a step along x and y, > 0, at most 1e6; 1 (the default): none
+    double x, y,
+        z; ///< growth factors a step along the axes, > 0, at most 1e6; 1 (the default): none; z in 3D only
     int32_t steps; ///< 1 or more; default 100
     double split;  ///< vn_growth_carry() splits edges longer than this (0: none); default 2 lengths
 } vn_uniform_def;
 VN_API vn_uniform_def vn_uniform_def_default(void);
-/// Uniform anisotropic growth: x(t) = x₀ · x^t and y(t) = y₀ · y^t, measured from the origin.
+/// Uniform anisotropic growth: x(t) = x₀ · x^t, y(t) = y₀ · y^t and, in 3D, z(t) = z₀ · z^t, measured from
+/// the origin. In 3D today's shape is the one at first, stretched: boxes and meshes, surfaces among them,
+/// stay such and are exact; of others, contains(), sees(), samples, bounds and measure are exact, and
+/// distance() is never more than the true distance, nor less than that times the least over the greatest of
+/// x^t, y^t and z^t. VN_INVALID for a z in the plane.
 VN_API vn_status vn_growth_uniform(vn_growth **out, const vn_uniform_def *def);
 
 typedef struct vn_rerg_def {

@@ -219,7 +219,12 @@ const vnl_function vnl_growth_functions[] = {
      "lengths by `unit` and divide densities by its square.",
      &vn_isogonic_schema},
     {"uniform", make_uniform, NULL, "venule.Growth",
-     "A blade that grows by one factor a step across and one along; its tissue moves.", &vn_uniform_schema},
+     "A blade that grows by one factor a step across, one along and, in 3D, one in depth; its tissue moves. "
+     "In "
+     "3D boxes and meshes are exact in all they answer; the distance to the border of others is never more "
+     "than "
+     "the true one.",
+     &vn_uniform_schema},
     {"rerg", make_rerg, NULL, "venule.Growth",
      "A blade that grows by factors that vary along it (Runions, appendix): x(t) = x0 f_x(y0)^t and y(t) = "
      "∫ f_y^t dy from 0 to y0, where y0 is the height above the origin at first. Its tissue moves.",
@@ -288,8 +293,9 @@ static const vnl_function methods[] = {
      "split, and the attractors that a margin has passed are released, away from the network. False when it "
      "was grown already.",
      NULL},
-    {"map", growth_map, "(x: number, y: number, t1: number, t2: number): number, number", NULL,
-     "Where the tissue that is at (x, y) at time t1 is at time t2; times are steps, and may be fractions. "
+    {"map", growth_map, "(x: number, y: number, ...: number): number, number, number?", NULL,
+     "`g:map(x, y[, z], t1, t2)`: where the tissue that is there at time t1 is at time t2; times are steps, "
+     "and may be fractions. "
      "Under none, marginal and isogonic growth it keeps its coordinates.",
      NULL},
     {0},

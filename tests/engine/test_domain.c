@@ -556,7 +556,7 @@ static void lengths_that_make_no_sense_are_refused(void **state) {
     assert_message("longer");
     vn_domain *ball = ball_of(0, 0, 0, 1);
     assert_int_equal(try_marginal((vn_growth_def){.domain = ball}), VN_INVALID);
-    assert_message("flat");
+    assert_message("of the plane");
     vn_domain_release(ball);
     vn_domain_release(shape);
 }

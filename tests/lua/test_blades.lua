@@ -94,6 +94,26 @@ function testMapsCompose()
   end
 end
 
+function testSolidsGrow()
+  local ball = venule.domain.sphere {center = {1, 0, 0}}
+  local g = growth.uniform {domain = ball, x = 2, z = 3, steps = 2, split = 0}
+  lu.assertEquals(g.origin, {1, -1, 0})
+  lu.assertTrue(g:advance())
+  lu.assertEquals(g:bounds(), {min = {-1, -1, -3}, max = {3, 1, 3}})
+  lu.assertAlmostEquals(g:measure(), 8 * math.pi, 1e-9)
+  lu.assertEquals({g:map(2, 0.5, 1, 0, 2)}, {5, 0.5, 9})
+  local net, drains = venule.network {dim = 3}, venule.attractors {dim = 3}
+  net:root(2, 0, 1)
+  drains:add(2, 0, -1)
+  lu.assertTrue(g:advance(net, drains))
+  lu.assertEquals({net.x[1], net.z[1], drains.x[1], drains.z[1]}, {3, 3, 3, -3})
+  local sheet = venule.domain.mesh {vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, faces = {{1, 2, 3}}}
+  local grown = growth.isogonic {domain = sheet, from = 2, to = 4, step = 1}
+  lu.assertAlmostEquals(grown:measure(), 2, 1e-12)
+  lu.assertTrue(grown:contains(0.5, 1, 0))
+  lu.assertEquals(#grown:sample(20, {rng = venule.rng(1)}), 20)
+end
+
 function testWhatABladeSaysOfItself()
   local g = growth.isogonic {domain = leaf(), from = 10, to = 40, step = 10}
   lu.assertEquals({g.kind, g.time, g.steps, g.length, g.final_length, g.unit, g.grown}, {"isogonic", 0, 3, 10, 40, 1, false})
@@ -255,7 +275,7 @@ function testNumbersThatMakeNoSense()
   fails(function() growth.rerg {domain = leaf(), steps = 0} end, "rerg.steps = 0 must be at least 1 steps: how many steps it grows")
   fails(function() growth.rerg {domain = leaf(), sampels = 3} end, 'rerg: unknown field "sampels", did you mean "samples"?')
   fails(function() growth.rerg {domain = leaf(), origin = {0, INF}} end, "rerg.origin must be finite")
-  fails(function() growth.rerg {domain = domain.sphere {}} end, "rerg.domain has 3 dimensions; its tissue moves in the plane")
+  fails(function() growth.rerg {domain = domain.sphere {}} end, "rerg.domain has 3 dimensions, and this growth is of the plane: use venule.growth.uniform or isogonic")
   fails(function() growth.uniform {domain = growth.none {domain = growth.isogonic {domain = leaf()}}} end,
     "a growth of a growing domain: give the shape itself")
   fails(function() golden():map(0, NAN, 0, 1) end, "growth:map: the point (0, " .. NAN_TEXT .. ") is not finite")
