@@ -37,31 +37,76 @@ static odd_edges find_odd_edges(const vn_closed *m) {
     return odd;
 }
 
-static vn_status fail_edges(const vn_closed *m, const odd_edges *odd, int kind) {
-    static const char *const problem[2] = {"is not closed", "has sheets inside"};
-    static const char *const which[2] = {"a triangle on one side only",
-                                         "an odd number of triangles, 3 or more"};
-    static const char *const remedy[2] = {
-        "fill its holes, merge vertices that nearly coincide, or take its surface (on = \"surface\")",
-        "remove the inner sheets, or take its surface (on = \"surface\")"};
-    int32_t h = odd->first[kind], a = corner(m, h / 3, h % 3), b = corner(m, h / 3, h % 3 + 1);
+/// Holes: border edges that hang together.
+typedef struct holes {
+    vn_corners root; ///< of each vertex: another one of its hole, and at the last itself
+    vn_corners edges;
+    int32_t count, largest;
+} holes;
+
+static int32_t root_of(holes *h, int32_t v) {
+    while (h->root.data[v] != v) {
+        v = h->root.data[v] = h->root.data[h->root.data[v]];
+    }
+    return v;
+}
+
+static vn_status count_holes(const vn_closed *m, holes *h) {
+    VN_TRY(vn_array_zero(&h->root, m->faces->vertices));
+    VN_TRY(vn_array_zero(&h->edges, m->faces->vertices));
+    for (int32_t v = 0; v < m->faces->vertices; v++) {
+        h->root.data[v] = v;
+    }
+    for (int32_t e = 0; e < m->mate->count; e++) {
+        if (m->mate->data[e] == e) {
+            h->root.data[root_of(h, corner(m, e / 3, e % 3))] = root_of(h, corner(m, e / 3, e % 3 + 1));
+        }
+    }
+    for (int32_t e = 0; e < m->mate->count; e++) {
+        if (m->mate->data[e] == e) {
+            int32_t size = ++h->edges.data[root_of(h, corner(m, e / 3, e % 3))];
+            h->count += size == 1;
+            h->largest = size > h->largest ? size : h->largest;
+        }
+    }
+    return VN_OK;
+}
+
+static vn_status fail_open(const vn_closed *m, const odd_edges *odd) {
+    holes h = {.count = 0};
+    vn_status status = count_holes(m, &h);
+    vn_array_free(&h.root);
+    vn_array_free(&h.edges);
+    VN_TRY(status);
+    int32_t a = corner(m, odd->first[0] / 3, odd->first[0] % 3);
     const double *p = place(m, a);
-    return vn_fail(VN_INVALID,
-                   "%s: the mesh %s: edges with %s: %d, the first from vertex %lld at (%.6g, %.6g, %.6g) to "
-                   "vertex %lld; %s",
-                   m->faces->what, problem[kind], which[kind], odd->count[kind],
-                   (long long)a + m->faces->first, p[0], p[1], p[2], (long long)b + m->faces->first,
-                   remedy[kind]);
+    return vn_fail(
+        VN_INVALID,
+        "%s: the mesh is not closed: edges with a triangle on one side only: %d, around %d hole%s, the "
+        "largest of %d edges, the first at vertex %lld at (%.6g, %.6g, %.6g); give repair = true to close "
+        "them, or take its surface (on = \"surface\")",
+        m->faces->what, odd->count[0], h.count, h.count == 1 ? "" : "s", h.largest,
+        (long long)a + m->faces->first, p[0], p[1], p[2]);
+}
+
+static vn_status fail_sheets(const vn_closed *m, const odd_edges *odd) {
+    int32_t h = odd->first[1], a = corner(m, h / 3, h % 3), b = corner(m, h / 3, h % 3 + 1);
+    const double *p = place(m, a);
+    return vn_fail(
+        VN_INVALID,
+        "%s: the mesh has sheets inside: edges with an odd number of triangles, 3 or more: %d, the "
+        "first from vertex %lld at (%.6g, %.6g, %.6g) to vertex %lld; remove the inner sheets, or "
+        "take its surface (on = \"surface\")",
+        m->faces->what, odd->count[1], (long long)a + m->faces->first, p[0], p[1], p[2],
+        (long long)b + m->faces->first);
 }
 
 vn_status vn_closed_check_edges(const vn_closed *m) {
     odd_edges odd = find_odd_edges(m);
-    for (int kind = 0; kind < 2; kind++) {
-        if (odd.count[kind] > 0) {
-            return fail_edges(m, &odd, kind);
-        }
+    if (odd.count[0] > 0) {
+        return fail_open(m, &odd);
     }
-    return VN_OK;
+    return odd.count[1] > 0 ? fail_sheets(m, &odd) : VN_OK;
 }
 
 // ---- Crossings ----

@@ -81,8 +81,10 @@ static bool has_area(const vn_faces *f, const int32_t corners[3]) {
 
 static vn_status add_triangle(const vn_faces *f, int32_t face, const int32_t corners[3], vn_corners *out) {
     if (!has_area(f, corners)) {
-        return vn_fail(VN_INVALID, "%s: face %lld has no area: its corners are on one line; remove it",
-                       f->what, (long long)face + f->first);
+        return vn_fail(
+            VN_INVALID,
+            "%s: face %lld has no area: its corners are on one line; remove it, or give repair = true",
+            f->what, (long long)face + f->first);
     }
     for (int k = 0; k < 3; k++) {
         VN_TRY(vn_array_push(out, corners[k]));
@@ -159,11 +161,28 @@ static vn_status cut_face(const vn_faces *f, int32_t face, const int32_t *corner
     return add_triangle(f, face, r.corner, out);
 }
 
-vn_status vn_faces_triangulate(const vn_faces *f, vn_corners *triangles) {
+static vn_status check_not_empty(const vn_faces *f) {
     if (f->vertices <= 0 || f->count <= 0) {
         return vn_fail(VN_INVALID, "%s: the mesh is empty: it has %d vertices and %d faces", f->what,
                        f->vertices, f->count);
     }
+    return VN_OK;
+}
+
+vn_status vn_faces_check(const vn_faces *f) {
+    VN_TRY(check_not_empty(f));
+    VN_TRY(check_vertices(f));
+    const int32_t *corners = f->corners;
+    for (int32_t face = 0; face < f->count; face++) {
+        int32_t size = f->sizes != NULL ? f->sizes[face] : 3;
+        VN_TRY(check_corners(f, face, corners, size));
+        corners += size;
+    }
+    return VN_OK;
+}
+
+vn_status vn_faces_triangulate(const vn_faces *f, vn_corners *triangles) {
+    VN_TRY(check_not_empty(f));
     VN_TRY(check_vertices(f));
     VN_TRY(vn_array_reserve(triangles, 3 * (int64_t)f->count));
     const int32_t *corners = f->corners;

@@ -18,6 +18,10 @@ typedef struct vn_faces {
 /// Three corners each.
 typedef VN_ARRAY(int32_t) vn_corners;
 
+/// Check the numbers: VN_INVALID for no faces at all, a vertex or a corner out of range, and faces of too few
+/// or too many corners.
+vn_status vn_faces_check(const vn_faces *faces);
+
 /// Check everything, and cut the faces into triangles (of a quadrangle, along the shorter diagonal that is
 /// inside). VN_INVALID with the first thing that is wrong.
 vn_status vn_faces_triangulate(const vn_faces *faces, vn_corners *triangles);

@@ -164,10 +164,24 @@ VN_API vn_svg_def vn_svg_def_default(void);
 /// lower left corner at (0, 0), or millimetres when the file gives its width in mm, cm, in or pt.
 VN_API vn_status vn_domain_svg(vn_domain **out, const char *path, const vn_svg_def *def);
 
+/// What was wrong with a mesh and has been repaired: counts.
+typedef struct vn_repairs {
+    int32_t merged;       ///< vertices that nearly coincided with others, within 1e-7 of the extent
+    int32_t removed;      ///< faces that were there twice or had no area
+    int32_t turned;       ///< faces that faced the other way than those around them
+    int32_t sewn;         ///< pairs of edges at one place
+    int32_t holes;        ///< that were closed
+    int32_t largest_hole; ///< edges round the largest one
+} vn_repairs;
+
 typedef struct vn_mesh_def {
-    int on;     ///< 0 "surface": the domain is the mesh's surface (vn_domain_surface()); 1 "inside": what it
-                ///< encloses (vn_domain_inside())
-    bool check; ///< of an inside, whether to look for crossings; default true
+    int on;      ///< 0 "surface": the domain is the mesh's surface (vn_domain_surface()); 1 "inside": what it
+                 ///< encloses (vn_domain_inside())
+    bool check;  ///< of an inside, whether to look for crossings; default true
+    bool repair; ///< mend what can be: vertices that nearly coincide, faces that are there twice, have no
+                 ///< area or are turned, open seams, and, of an inside, holes of up to 500 edges; default
+                 ///< false: refuse
+    vn_repairs *repairs; ///< gets what was repaired; may be NULL
 } vn_mesh_def;
 VN_API vn_mesh_def vn_mesh_def_default(void);
 /// The surface or the inside of a mesh in an .obj, .off (plain, in text), .ply or .stl file. Faces of more

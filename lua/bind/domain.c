@@ -255,10 +255,22 @@ static void make_faces(lua_State *L, vn_domain **domain, const vn_mesh_def *def)
     vnl_try(L, vn_domain_mesh_faces(domain, &faces, def));
 }
 
+static void push_repairs(lua_State *L, const vn_repairs *repairs) {
+    lua_createtable(L, 0, 6);
+    vnl_set_integer(L, "merged", repairs->merged);
+    vnl_set_integer(L, "removed", repairs->removed);
+    vnl_set_integer(L, "turned", repairs->turned);
+    vnl_set_integer(L, "sewn", repairs->sewn);
+    vnl_set_integer(L, "holes", repairs->holes);
+    vnl_set_integer(L, "largest_hole", repairs->largest_hole);
+}
+
 static int make_mesh(lua_State *L) {
     vn_mesh_def def;
+    vn_repairs repairs;
     lua_settop(L, 2);
     vnl_read_options(L, 2, &vn_mesh_schema, &def);
+    def.repairs = &repairs;
     void **box = vnl_push_box(L, &vnl_domain_class);
     int result = lua_gettop(L);
     if (lua_istable(L, 1)) {
@@ -268,7 +280,11 @@ static int make_mesh(lua_State *L) {
         vnl_try(L, vn_domain_mesh((vn_domain **)box, path, &def));
     }
     lua_settop(L, result);
-    return 1;
+    if (!def.repair) {
+        return 1;
+    }
+    push_repairs(L, &repairs);
+    return 2;
 }
 
 static int make_shell(lua_State *L) {
@@ -310,14 +326,18 @@ const vnl_function vnl_domain_functions[] = {
      &vn_volume_schema},
     {"mesh", make_mesh,
      "(mesh: string|{vertices: number[][], faces: integer[][]}, options?: venule.mesh.Options): "
-     "venule.Domain",
+     "venule.Domain, table?",
      NULL,
      "The surface of a mesh in 3D, or with `on = \"inside\"` what it encloses: of an .obj, .off, .ply or "
      ".stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices "
      "from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or "
      "jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be "
      "below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a "
-     "cavity, whichever way their faces turn.",
+     "cavity, whichever way their faces turn. With `repair = true` broken meshes are mended as far as that "
+     "can "
+     "be, and a second result says how much: {merged = vertices that nearly coincided, removed = faces that "
+     "were "
+     "there twice or had no area, turned = faces, sewn = pairs of edges, holes =, largest_hole = edges}.",
      &vn_mesh_schema},
     {"shell", make_shell, NULL, "venule.Domain",
      "What of a domain is near its border: everything but a core that is `thickness` inside. Of a growing "

@@ -568,11 +568,12 @@ static void meshes_without_an_inside_are_refused(void **state) {
     mesh m = box_mesh(0, 1);
     m.corners.count -= 3;
     refused(&m, true,
-            "inside: the mesh is not closed: edges with a triangle on one side only: 3, the first from "
-            "vertex 4 at "
-            "(0, 0, 1) to vertex 6; fill its holes");
+            "inside: the mesh is not closed: edges with a triangle on one side only: 3, around 1 "
+            "hole, the largest of 3 edges, the first at vertex 4 at (0, 0, 1); give repair = true");
     m.corners.count = 3;
-    refused(&m, true, "one side only: 3, the first from vertex 0 at (0, 0, 0) to vertex 4; fill");
+    refused(
+        &m, true,
+        "one side only: 3, around 1 hole, the largest of 3 edges, the first at vertex 0 at (0, 0, 0); give");
     m.corners.count = 0;
     refused(&m, true, "inside: the mesh is empty: it has 8 vertices and 0 faces");
     free_mesh(&m);
