@@ -204,12 +204,13 @@ vn_status repair(vn_polygons *out, const vn_faces &faces, bool close, vn_repairs
     Soup soup = read_soup(faces);
     Mesh mesh;
     clean(soup, repairs);
-    if (soup.faces.empty()) {
-        return vn_fail(VN_INVALID, "%s: no face has an area", faces.what);
-    }
     VN_TRY(vn_poll());
     PMP::polygon_soup_to_polygon_mesh(soup.points, soup.faces, mesh);
     sew(mesh, repairs);
+    if (mesh.number_of_faces() == 0) {
+        return vn_fail(VN_INVALID, "%s: the mesh cannot be repaired: none of its %d faces has an area",
+                       faces.what, faces.count);
+    }
     VN_TRY(close ? fill(mesh, faces.what, repairs) : VN_OK);
     return store(out, mesh);
 }

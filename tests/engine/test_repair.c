@@ -250,6 +250,7 @@ static void what_cannot_be_mended_is_refused(void **state) {
     put_vertex(&b.m, (double[]){2, 2, 2});
     put_triangle(&b.m, 0, 1, 2);
     assert_int_equal(try_to_mend(&domain, &b, false, true), VN_INVALID);
+    assert_message("organ: the mesh cannot be repaired: none of its 1 faces has an area");
     free_mesh(&b.m);
 }
 
