@@ -23,6 +23,7 @@ local tree_rows = {
 local drain_rows = {
   {"darts", nil, type = "integer", min = 1, unit = "darts", doc = "thrown in each step; left out, with density: 1000"},
   {"density", nil, type = "number", above = 0, unit = "darts/length²", doc = "ρ: or darts per area (volume) of the grown tissue and step"},
+  {"weight", nil, type = "any", doc = "a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen"},
   {"drain_spacing", nil, type = "number", above = 0, unit = "length", share = 0.03, doc = "ε_s: a new drain keeps this far from other drains"},
   {"drain_clearance", nil, type = "number", above = 0, unit = "length", share = 0.04, doc = "ε_n: and this far from arteries"},
 }
@@ -213,7 +214,7 @@ function Vessels:throw(r)
   local unit, tissue = self.tissue.unit, self.tissue
   return self.drains:throw {
     domain = self:place(), count = r.darts, density = r.density and r.density / unit ^ tissue.dim, spacing = r.drain_spacing * unit,
-    clearance = r.drain_clearance * unit, network = self.arteries, weight = self.options.weight, rng = self.options.rng,
+    clearance = r.drain_clearance * unit, network = self.arteries, weight = r.weight, rng = self.options.rng,
   }
 end
 
