@@ -2,6 +2,7 @@
 -- Both begin at the hollow between the lobes; `-o liver.json` writes both networks. `--set on=surface` keeps them on the
 -- capsule, `--set turn=90` walks round it.
 local venule = require "venule"
+local front = require "figures.front"
 
 local p = venule.param {
   {"on", "inside", choices = {"inside", "surface"}, help = "where the vessels grow"},
@@ -37,13 +38,23 @@ local s = venule.vessels {
 s:run {progress = true}
 
 local angle = math.rad(p.turn)
+local eye = {middle(1) + 500 * math.sin(angle), middle(2) + 100, middle(3) + 500 * math.cos(angle)}
+
+-- On the capsule, what lies in front is drawn over it whole: the straight segments sink into its facets.
+local solid = p.on == "surface" and venule.domain.mesh("data/liver.obj", {on = "inside"})
+local function style(net, color)
+  return {
+    color = color, min_width = 0.6, width = solid and front.width(net, solid, eye) or "radius", hide_below = solid and 0.01 or nil,
+    opacity = solid and 0.99 or 1,
+  }
+end
+
 venule.result {
   networks = s.networks, view = bounds, width = p.size, background = "#ffffff",
   picture = function(page)
     page:fill(capsule, {color = "#d9a79a", opacity = p.on == "inside" and 0.25 or 1})
-    page:stroke(s.veins, {color = "#3f6aa8", min_width = 0.6})
-    page:stroke(s.arteries, {color = "#c23b2e", min_width = 0.6})
+    page:stroke(s.veins, style(s.veins, "#3f6aa8"))
+    page:stroke(s.arteries, style(s.arteries, "#c23b2e"))
   end,
-  camera = {from = {middle(1) + 500 * math.sin(angle), middle(2) + 100, middle(3) + 500 * math.cos(angle)},
-    to = {middle(1), middle(2), middle(3)}, fov = 30, zoom = 1.25, fog = 0.4},
+  camera = {from = eye, to = {middle(1), middle(2), middle(3)}, fov = 30, zoom = 1.25, fog = 0.4},
 }

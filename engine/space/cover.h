@@ -17,7 +17,8 @@ typedef struct vn_cover {
 } vn_cover;
 
 /// An empty cover of the box, for points that cover what is within @p radius (> 0) of them. Its cells are a
-/// sixth of that wide (in 3D a third), or as wide as 2 MB allow; where that is more than 2/5 of it, its width is 0.
+/// sixth of that wide (in 3D a third), or as wide as 2 MB allow; where that is more than 2/5 of it, its width
+/// is 0.
 vn_status vn_cover_init(vn_cover *cover, int dim, const double low[3], const double high[3], double radius);
 void vn_cover_free(vn_cover *cover);
 

@@ -21,11 +21,11 @@ typedef struct vn_growth_def {
     vn_domain *domain; ///< the grown shape; held, not taken over
     double origin[3];  ///< the petiole, which stays where it is; used when `has_origin`
     bool has_origin;   ///< false: the lowest point of the outline, or the middle of a flat base; in 3D the
-                     ///< middle of its bounds where y is least
-    double from;  ///< length at first, > 0; 0: a twentieth of `to`
-    double to;    ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
-    double step;  ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
-    double split; ///< isogonic: vn_growth_carry() splits edges longer than this times the unit; 0: none
+                       ///< middle of its bounds where y is least
+    double from;       ///< length at first, > 0; 0: a twentieth of `to`
+    double to;         ///< length when grown, at least `from`; 0: the domain's own length, its extent along y
+    double step;       ///< length added by each vn_growth_advance(), > 0; 0: a hundredth of to - from
+    double split;      ///< isogonic: vn_growth_carry() splits edges longer than this times the unit; 0: none
 } vn_growth_def;
 VN_API vn_growth_def vn_growth_def_default(void);
 

@@ -382,7 +382,7 @@ function venule.cco(options) end
 ---@class (exact) venule.vessels.Options
 ---@field domain any # the tissue: a domain, or a growth
 ---@field rng any # the random numbers: venule.rng(seed)
----@field arteries table # {roots = {…}}, or network =, with options that are to hold for arteries alone
+---@field arteries table # {roots = {…}}, or guides =, or network =, with options that are to hold for arteries alone
 ---@field veins? table # likewise; left out: none grow
 ---@field steps? number # how many; left out where there are stages or the domain grows by itself: theirs
 ---@field growth? number # Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays
@@ -402,6 +402,7 @@ function venule.cco(options) end
 ---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
 ---@field darts? integer # thrown in each step; left out, with density: 1000
 ---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
+---@field weight? any # a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen
 ---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
 ---@field drain_clearance? number # ε_n: and this far from arteries
 
@@ -445,6 +446,7 @@ function venule.plot(options) end
 ---@class (exact) venule.vessels.tree.Options
 ---@field roots? table # where trees begin: {{x, y}, …} or {{x, y, z}, …}, each with heading = {x, y} where its first segment has a direction
 ---@field network? any # a network to go on from, besides roots
+---@field guides? any # paths that vessels follow first: {{{x, y}, …}, …}, or a network, or a file that has lines (venule.paths)
 ---@field perception_distance? number # δ: drains farther than this draw no vessel
 ---@field satisfaction? number # ε_k: a vessel this close satisfies a drain
 ---@field segment_length? number # d: the length a vessel gains in a step
@@ -475,6 +477,7 @@ function venule.plot(options) end
 ---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
 ---@field darts? integer # thrown in each step; left out, with density: 1000
 ---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
+---@field weight? any # a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen
 ---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
 ---@field drain_clearance? number # ε_n: and this far from arteries
 
@@ -815,11 +818,12 @@ function venule.domain.volume(path, options) end
 ---@class (exact) venule.mesh.Options
 ---@field on? "surface"|"inside" # what of the mesh is the domain: its surface, or what it encloses (default "surface")
 ---@field check? boolean # of an inside: refuse a mesh that crosses itself; without, what is in two of its parts is outside (default true)
+---@field repair? boolean # mend vertices that nearly coincide, faces that are there twice, have no area or are turned, open seams and, for an inside, holes; otherwise such a mesh is refused (default false)
 
----The surface of a mesh in 3D, or with `on = "inside"` what it encloses: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a cavity, whichever way their faces turn.
+---The surface of a mesh in 3D, or with `on = "inside"` what it encloses: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a cavity, whichever way their faces turn. With `repair = true` broken meshes are mended as far as that can be, and a second result says how much: {merged = vertices that nearly coincided, removed = faces that were there twice or had no area, turned = faces, sewn = pairs of edges, holes =, largest_hole = edges}.
 ---@param mesh string|{vertices: number[][], faces: integer[][]}
 ---@param options? venule.mesh.Options
----@return venule.Domain
+---@return venule.Domain, table?
 function venule.domain.mesh(mesh, options) end
 
 ---@class (exact) venule.shell.Options
@@ -853,7 +857,7 @@ function venule.growth.marginal(options) end
 
 ---@class (exact) venule.isogonic.Options
 ---@field domain venule.Domain|venule.Growth # the shape of the blade, at any size
----@field origin? number[] # the petiole, about which the shape is scaled to `from`; left out: the lowest point of the outline, length
+---@field origin? number[] # the petiole, about which the shape is scaled to `from`; left out: the lowest point of the outline, or in 3D the middle of the bottom (least y) of its bounds, length
 ---@field from? number # the blade's length at first, and that of its shape in the simulation; left out: a twentieth of `to`, length
 ---@field to? number # its length when grown; left out: the domain's own length, its extent along y, length
 ---@field step? number # the length that each step adds; left out: a hundredth of to - from, length
@@ -866,13 +870,14 @@ function venule.growth.isogonic(options) end
 
 ---@class (exact) venule.uniform.Options
 ---@field domain venule.Domain|venule.Growth # the shape of the blade at first
----@field origin? number[] # the petiole, which stays; left out: the lowest point of the outline, length
+---@field origin? number[] # the petiole, which stays; left out: the lowest point of the outline, or in 3D the middle of the bottom (least y) of its bounds, length
 ---@field x? number # growth factor a step across; 1: none (default 1)
 ---@field y? number # growth factor a step along; 1: none (default 1)
+---@field z? number # growth factor a step in depth, in 3D; 1: none (default 1)
 ---@field steps? integer # how many steps it grows, steps (default 100)
 ---@field split? number # edges that growth makes longer than this are split; about two vein segments; 0: none, length (default 2)
 
----A blade that grows by one factor a step across and one along; its tissue moves.
+---A blade that grows by one factor a step across, one along and, in 3D, one in depth; its tissue moves. In 3D boxes and meshes are exact in all they answer; the distance to the border of others is never more than the true one.
 ---@param options venule.uniform.Options
 ---@return venule.Growth
 function venule.growth.uniform(options) end
@@ -976,13 +981,12 @@ local Growth = {}
 ---@return boolean
 function Growth:advance(...) end
 
----Where the tissue that is at (x, y) at time t1 is at time t2; times are steps, and may be fractions. Under none, marginal and isogonic growth it keeps its coordinates.
+---`g:map(x, y[, z], t1, t2)`: where the tissue that is there at time t1 is at time t2; times are steps, and may be fractions. Under none, marginal and isogonic growth it keeps its coordinates.
 ---@param x number
 ---@param y number
----@param t1 number
----@param t2 number
----@return number, number
-function Growth:map(x, y, t1, t2) end
+---@param ... number
+---@return number, number, number?
+function Growth:map(x, y, ...) end
 
 ---What grows: a forest of nodes, and joins that close loops. `#net` nodes, numbered from 1.
 ---@class venule.Network
@@ -1062,12 +1066,26 @@ function Network:zone(node, options) end
 ---@field bias? number # ω, with perception: how much of a vessel's own direction is in that of its next segment (default 0)
 ---@field bias_mean? boolean # weigh the mean of the directions to attractors against that, rather than their sum (default false)
 ---@field bifurcate? number # φ, with perception: a leaf whose attractors lie farther apart forks symmetrically; left out: none does, degrees
+---@field avoid? any # networks whose edges this one's keep clear of, as round tubes, now and as they grow thicker; those that grow by turns must each avoid the other
+---@field gap? number # what a new edge leaves free beside those to be avoided, for both to grow thicker; left out: a quarter of `length`, length
 
----Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will.
+---Grow each influenced node by one segment in the mean direction of its attractors (Runions, Equation 1). How many nodes were added, and the first of them; when it adds none and nothing else changes, no later call will. `avoid = other` keeps this network clear of others for good; those that grow by turns must each avoid the other.
 ---@param influence venule.Influence
 ---@param options venule.extend.Options
 ---@return integer, integer
 function Network:extend(influence, options) end
+
+---@class (exact) venule.follow.Options
+---@field length number # d, of the new edges: each path is cut into equal parts of about that length, length
+---@field within? number # how far from the network a path may begin, and how far off a surface it may be; 0: length, length (default 0)
+---@field domain? venule.Domain|venule.Growth # what paths have to stay in, or what surface they are brought onto; left out: anywhere
+---@field name? string # what errors call the paths (default "paths")
+
+---Lay vessels along paths (Rauch & Harders, Figure 4): each is a list of points {x, y} or {x, y, z}, and begins at the node nearest to its first point, which an earlier path may have made; in an empty network that point is the root. How many nodes were added, and the first of them.
+---@param paths number[][][]
+---@param options venule.follow.Options
+---@return integer, integer
+function Network:follow(paths, options) end
 
 ---The children of a node, in the order of birth.
 ---@param node integer
@@ -1167,7 +1185,7 @@ function Network:save(path) end
 ---@field z number[] # the attractors' coordinates; 0 in 2D
 ---@field dim integer # 2 or 3
 ---@field dormant integer # how many wait beyond a growing margin
----@field retired {hidden: integer, circled: integer, barred: integer} # how many were given up: hidden, as no node sees them without leaving the domain; circled, as veins grew for them and came no nearer; barred, as the vein would have crossed another one
+---@field retired {hidden: integer, circled: integer, barred: integer} # how many were given up: hidden, as no node sees them without leaving the domain; circled, as veins grew for them and came no nearer; barred, as the vein would have crossed another one, or come too near to a network to be avoided
 local Attractors = {}
 
 ---Add one.
@@ -1183,9 +1201,10 @@ function Attractors:add(x, y, z) end
 ---@field spacing? number # birth distance b_s: a dart this close to an attractor is refused; left out: none is, length
 ---@field clearance? number # birth distance b_v: a dart this close to a node of `network` is refused; left out: none is, length
 ---@field network? venule.Network # what `clearance` keeps clear of
+---@field weight? any # what part of the darts is kept at a place, 0 to 1: a map's values, or what the function returns; left out: all
 ---@field rng venule.Rng # the random numbers: venule.rng(seed)
 
----Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all attractors and farther than `clearance` from all nodes of `network` (Runions §3.3).
+---Throw darts at a domain; how many stuck. Each is accepted when it is farther than `spacing` from all attractors and farther than `clearance` from all nodes of `network` (Runions §3.3). With a `weight`, first each is kept with that probability: a map's values (`venule.domain.image`, `venule.domain.volume`), 1 inside any other domain and 0 outside, or what a function of the place returns, from 0 to 1. A marginal growth's darts are weighed once, all over its square.
 ---@param options venule.throw.Options
 ---@return integer
 function Attractors:throw(options) end
