@@ -125,7 +125,11 @@ static vn_status open_gaze(vn_attractors *a, const vn_network *network, const vn
     if (open != vn_gaze_is_open(&a->gaze) || (open && lateral != perception->lateral)) {
         vn_attractors_forget(a);
     }
-    a->sleep.count = changed || a->network_serial != network->serial ? 0 : a->sleep.count;
+    if (vn_gaze_is_open(&a->gaze) && (changed || a->network_serial != network->serial)) {
+        a->version++; // what was found with other eyes, or for another network, is out of date
+    }
+    a->sleep.count = changed || a->turned != network->turned ? 0 : a->sleep.count;
+    a->turned = network->turned;
     if (vn_gaze_is_open(&a->gaze) && (network->recount || network->pending.count > 0)) {
         vn_network_settle(network);
     }

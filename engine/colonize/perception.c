@@ -126,6 +126,10 @@ vn_status vn_network_zone(const vn_network *network, int32_t node, const vn_perc
     if (node < 0 || node >= network->x.count) {
         return vn_fail(VN_INVALID, "node %d is not one of the %d there are", node, network->x.count);
     }
+    if (!vn_gaze_is_open(&gaze)) {
+        *out = (vn_zone_shape){.kind = VN_ZONE_BALL};
+        return VN_OK;
+    }
     vn_network_settle(network);
     vn_zone_find(&zone, &gaze, network, node);
     *out = (vn_zone_shape){.kind = zone.kind, .angle = acos(zone.cosine) * (180 / PI)};

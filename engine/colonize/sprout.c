@@ -58,7 +58,20 @@ static void any_perpendicular(const double e[3], int dim, double out[3]) {
     }
 }
 
-// v of Equation 4: straight on, or Murray's optimal branch on the side of the attraction @p toward.
+// Toward the attractor that ranks first.
+static void first_ranked(const sprout *s, double n[3]) {
+    const vn_extension *e = s->e;
+    const vn_keyed *first = e->begin;
+    for (const vn_keyed *pair = e->begin + 1; pair < e->end; pair++) {
+        uint64_t rank = vn_hash(e->a->seed, e->a->id.data[pair->value], (uint64_t)e->node, 0);
+        uint64_t least = vn_hash(e->a->seed, e->a->id.data[first->value], (uint64_t)e->node, 0);
+        first = rank < least ? pair : first;
+    }
+    vn_direction_to(e, e->node, first->value, n);
+}
+
+// v of Equation 4: straight on, or Murray's optimal branch on the side of the attraction @p toward; where that
+// leads along the vessel, on the side of the first-ranked attractor (R18).
 static void preferred(const sprout *s, const double toward[3], double v[3]) {
     const vn_zone *zone = &s->zone;
     double side[3], unit[3] = {toward[0], toward[1], toward[2]};
@@ -66,7 +79,12 @@ static void preferred(const sprout *s, const double toward[3], double v[3]) {
     if (zone->kind != VN_ZONE_BELT) {
         return;
     }
-    if (!normalise(unit, 0) || !perpendicular(unit, zone->e, side)) {
+    bool sided = normalise(unit, 0) && perpendicular(unit, zone->e, side);
+    if (!sided) {
+        first_ranked(s, unit);
+        sided = perpendicular(unit, zone->e, side);
+    }
+    if (!sided) {
         any_perpendicular(zone->e, s->e->network->dim, side);
     }
     for (int k = 0; k < 3; k++) {

@@ -32,6 +32,7 @@ static void forget(vn_attractors *a, const vn_network *network, int mode, double
     a->active.count = 0;
     a->activated.count = 0;
     a->waiting.count = 0;
+    a->sleep.count = 0;
     a->fresh.count = 0;
     a->fresh_all = true;
 }

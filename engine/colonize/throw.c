@@ -239,20 +239,22 @@ static bool covers(const vn_attractors *a, const vn_throw_def *def) {
            cover->radius < def->clearance && cover->radius >= 0.7 * def->clearance;
 }
 
-// Made anew for every dart or so of an eighth of the nodes: where few darts fall it would not pay. Where the
-// clearance shrinks the cover is made for what it will shrink to.
+// Where the clearance shrinks the cover is made for what it will shrink to.
 static vn_status make_cover(vn_attractors *a, const vn_throw_def *def) {
     bool shrinks = a->cover_network == def->network->serial && a->cover.radius >= def->clearance;
     vn_box bounds = vn_domain_bounds(def->domain);
-    a->cover_network = def->network->serial;
-    a->cover_moved = def->network->moved;
+    a->cover_network = 0; // nobody's, should there be no memory for it
     a->cover_nodes = 0;
     a->cover_darts = 0;
-    return vn_cover_init(&a->cover, a->dim, bounds.min, bounds.max,
-                         (shrinks ? 0.85 : 0.999) * def->clearance);
+    VN_TRY(vn_cover_init(&a->cover, a->dim, bounds.min, bounds.max,
+                         (shrinks ? 0.85 : 0.999) * def->clearance));
+    a->cover_network = def->network->serial;
+    a->cover_moved = def->network->moved;
+    return VN_OK;
 }
 
-// Whether the cover can be asked, with all nodes in it.
+// Whether the cover can be asked, with all nodes in it. To make it pays when it has been asked for at least
+// every eighth node.
 static vn_status renew_cover(vn_attractors *a, const vn_throw_def *def, int64_t darts, bool *use) {
     const vn_network *network = def->network;
     *use = false;

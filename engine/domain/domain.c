@@ -58,6 +58,10 @@ double vn_domain_measure(const vn_domain *domain) {
     return domain->measure;
 }
 
+int vn_domain_measure_dim(const vn_domain *domain) {
+    return domain->kind->snap != NULL ? 2 : domain->dim;
+}
+
 bool vn_domain_contains(const vn_domain *domain, const double p[3]) {
     return domain->kind->contains(domain, p);
 }

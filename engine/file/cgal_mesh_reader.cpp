@@ -194,10 +194,14 @@ const Format formats[] = {
      [](std::istream &in, Points &p, Faces &f) { return CGAL::IO::read_STL(in, p, f, quiet()); }},
 };
 
-const Format *format_of(const char *path) {
+std::string extension_of(const char *path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+const Format *format_of(const std::string &extension) {
     for (const Format &format : formats) {
         if (extension == format.extension) {
             return &format;
@@ -269,9 +273,13 @@ vn_status read_guarded(vn_polygons *out, File &file, const Format &format) {
 
 extern "C" vn_status vn_mesh_read(vn_polygons *polygons, const char *path) {
     return vn_guard(path, [&] {
-        const Format *format = format_of(path);
+        std::string extension = extension_of(path);
+        if (extension == ".glb" || extension == ".gltf") {
+            return vn_gltf_read(polygons, path);
+        }
+        const Format *format = format_of(extension);
         if (format == nullptr) {
-            return vn_fail(VN_INVALID, "%s: a mesh is read from .obj, .off, .ply or .stl", path);
+            return vn_fail(VN_INVALID, "%s: a mesh is read from .obj, .off, .ply, .stl, .glb or .gltf", path);
         }
         File file{path, 0, {}};
         vn_status status = open(file);

@@ -21,6 +21,9 @@ void vn_polygons_free(vn_polygons *polygons);
 /// then holds nothing of use, and is to be freed all the same.
 vn_status vn_mesh_read(vn_polygons *polygons, const char *path);
 
+/// Those of a glTF 2.0 file (tinygltf_reader.cpp), in its metres, as its scene places them.
+vn_status vn_gltf_read(vn_polygons *polygons, const char *path);
+
 /// What vn_domain_mesh() makes of a file's faces.
 vn_status vn_domain_mesh_faces(vn_domain **out, const vn_faces *faces, const vn_mesh_def *def);
 

@@ -174,12 +174,13 @@ vn_status vn_network_add(vn_network *network, int32_t parent, const double p[3],
 vn_status vn_network_set_heading(vn_network *network, int32_t root, const double direction[3]) {
     double length = hypot(hypot(direction[0], direction[1]), direction[2]);
     if (root < 0 || root >= network->x.count || network->parent.data[root] >= 0) {
-        return vn_fail(VN_INVALID, "heading: node %d is no root", root);
+        return vn_fail(VN_INVALID, "heading: only a root has one, and this node has a parent");
     }
     if (!(length > 0 && length <= VN_HUGE)) {
         return vn_fail(VN_INVALID, "heading: (%g, %g, %g) is no direction", direction[0], direction[1],
                        direction[2]);
     }
+    network->turned++;
     vn_heading heading = {root, {direction[0] / length, direction[1] / length, direction[2] / length}};
     network->version++;
     for (int32_t i = 0; i < network->headings.count; i++) {

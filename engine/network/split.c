@@ -66,6 +66,7 @@ vn_status vn_network_split(vn_network *network, int32_t child, const double p[3]
     insert_node(network, child, p);
     network->sequence.count = network->x.count; // from now on it has room for every node
     network->unordered = true;
+    network->turned++;
     network->version++;
     if (node != NULL) {
         *node = network->x.count - 1;

@@ -19,11 +19,10 @@ vn_status vn_cover_init(vn_cover *cover, int dim, const double low[3], const dou
         cell *= 1.25;
     }
     cover->dim = dim;
-    cover->cell = cell <= 0.4 * radius ? cell : 0;
-    cover->per_cell = cover->cell > 0 ? 1 / cover->cell : 0;
+    cover->cell = cover->per_cell = 0; // until there is room for it
     cover->radius = radius;
     cover->size[0] = cover->size[1] = cover->size[2] = 1;
-    if (cover->cell == 0) {
+    if (!(cell <= 0.4 * radius)) {
         return VN_OK;
     }
     for (int k = 0; k < dim; k++) {
@@ -35,6 +34,8 @@ vn_status vn_cover_init(vn_cover *cover, int dim, const double low[3], const dou
     VN_TRY(vn_array_reserve(&cover->bits, words));
     memset(cover->bits.data, 0, (size_t)words * sizeof *cover->bits.data);
     cover->bits.count = (int32_t)words;
+    cover->cell = cell;
+    cover->per_cell = 1 / cell;
     return VN_OK;
 }
 

@@ -97,7 +97,8 @@ typedef struct vn_zone_shape {
     double direction[3]; ///< of the edge to the parent; 0 where there is none
     double angle;        ///< degrees from there to the middle of the zone: 0 in a cone, α in a belt
 } vn_zone_shape;
-/// What @p node perceives now. VN_INVALID without Murray's law, and where its exponent is not in (2, 4].
+/// What @p node perceives now. With an angle, VN_INVALID without Murray's
+/// law, and where its exponent is not in (2, 4].
 VN_API vn_status vn_network_zone(const vn_network *network, int32_t node, const vn_perception *perception,
                                  vn_zone_shape *out);
 

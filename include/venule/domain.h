@@ -129,6 +129,8 @@ VN_API vn_box vn_domain_bounds(const vn_domain *domain);
 /// Its area (2D, and surfaces) or volume (3D). Combinations and shells of solids are measured to some 1e-4 of
 /// the volume of their bounds.
 VN_API double vn_domain_measure(const vn_domain *domain);
+/// Of what the measure is: 2 for an area (also of a surface in space), 3 for a volume.
+VN_API int vn_domain_measure_dim(const vn_domain *domain);
 /// Whether @p p is inside. Points on the border itself may be either, but always the same.
 VN_API bool vn_domain_contains(const vn_domain *domain, const double p[3]);
 /// The distance to the border: positive inside, negative outside.

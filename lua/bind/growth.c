@@ -328,6 +328,8 @@ static int growth_field(lua_State *L) {
         }
     } else if (strcmp(key, "dim") == 0) {
         lua_pushinteger(L, growth->base.dim);
+    } else if (strcmp(key, "measure_dim") == 0) {
+        lua_pushinteger(L, vn_domain_measure_dim(&growth->base));
     } else {
         return 0;
     }
@@ -339,6 +341,7 @@ static const char *const fields[] = {
     "time: integer | steps taken",
     "steps: integer | steps from first to grown",
     "grown: boolean | whether advance() has nothing left to do",
+    "measure_dim: integer | 2 where its measure is an area, 3 where it is a volume",
     "length: number | today's length",
     "final_length: number | the length when grown",
     "unit: number | today's unit length in the simulation's coordinates: 1 at first (READINGS R7)",

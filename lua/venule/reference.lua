@@ -39,7 +39,7 @@ local functions = {
   {name = "vessels", owner = "venule", arguments = "options", types = {options = "venule.vessels.Options"}, rows = "vessels",
     returns = "venule.VesselsSystem", doc =
     "Arteries and veins that grow together (Rauch & Harders 2021), ready to grow: `s:run{progress=}`, `s:step()` (false when done), "
-    .. "`s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`. Lengths are those at the size that the "
+    .. "`s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`, `s.unit`. Lengths are those at the size that the "
     .. "tissue has at first; left out, they are parts of the domain's longest side. What `arteries`, `veins` and a stage may say is below. "
     .. "The loop is plain Lua in lua/venule/vessels.lua; copy it when an option is not enough."},
   {name = "plot", owner = "venule", arguments = "options", types = {options = "venule.plot.Options"}, rows = "plot",
@@ -185,7 +185,8 @@ function CcoSystem:run(options) end
 ---@field networks table<string, venule.Network> # both, by name
 ---@field drains venule.Attractors # oxygen drains, which arteries grow toward
 ---@field sources venule.Attractors # of carbon dioxide, which veins grow toward
----@field tissue venule.Growth # where; `tissue.unit` is today's unit of length
+---@field tissue venule.Domain|venule.Growth # where
+---@field unit number # today's unit of length, in the coordinates of the simulation: 1 at first, smaller as the tissue grows
 ---@field time integer # steps taken
 ---@field steps integer # of all stages
 ---@field stage integer # which is under way

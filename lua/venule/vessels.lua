@@ -21,7 +21,7 @@ local tree_rows = {
 }
 
 local drain_rows = {
-  {"darts", nil, type = "integer", min = 1, unit = "darts", doc = "thrown in each step; left out, with density: 1000"},
+  {"darts", nil, type = "integer", min = 1, unit = "darts", doc = "thrown in each step (into a blade whose margin grows: in all); left out, with density: 1000"},
   {"density", nil, type = "number", above = 0, unit = "darts/length²", doc = "ρ: or darts per area (volume) of the grown tissue and step"},
   {"weight", nil, type = "any", doc = "a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen"},
   {"drain_spacing", nil, type = "number", above = 0, unit = "length", share = 0.03, doc = "ε_s: a new drain keeps this far from other drains"},
@@ -39,7 +39,7 @@ local own_rows = {
   {"rng", nil, type = "userdata", required = true, doc = "the random numbers: venule.rng(seed)"},
   {"arteries", nil, type = "table", required = true, doc = "{roots = {…}}, or guides =, or network =, with options that are to hold for arteries alone"},
   {"veins", nil, type = "table", doc = "likewise; left out: none grow"},
-  {"steps", 100, min = 1, max = 1000000, doc = "how many; left out where there are stages or the domain grows by itself: theirs"},
+  {"steps", 100, type = "integer", min = 1, max = 1000000, doc = "how many; left out where there are stages or the domain grows by itself: theirs"},
   {"growth", 0.02, min = 0, max = 1, doc = "Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays"},
   {"stages", nil, type = "table", doc = "{{steps = 100, …}, …}: one after the other, each with options of its own"},
   {"avoid", false, doc = "arteries and veins keep clear of one another, as tubes of their radii"},
@@ -77,9 +77,19 @@ local stage_rows = joined(
 local Vessels = {}
 Vessels.__index = Vessels
 
+local function class_of(value)
+  return type(value) == "userdata" and getmetatable(value).__name or type(value)
+end
+
+local function is_growth(value)
+  return class_of(value) == "venule.growth"
+end
+
+-- The longest side; of a blade whose margin grows, when it is grown.
 local function size_of(domain)
   local bounds, size = domain:bounds(), 0
   for k = 1, #bounds.min do size = math.max(size, bounds.max[k] - bounds.min[k]) end
+  if is_growth(domain) and domain.kind == "marginal" then size = size * domain.final_length / domain.length end
   return size
 end
 
@@ -97,30 +107,41 @@ local function settle(rows, size, ...)
   return read
 end
 
-local function check_distances(kind, r, spacing, level)
+-- Stages repeat what they do not change: each thing is said once.
+local function teller()
+  local told = {}
+  return function(text)
+    if not told[text] then venule.note(text) end
+    told[text] = true
+  end
+end
+
+local function check_distances(kind, r, spacing, note, level)
   if r.perception_distance <= r.satisfaction then
     error(("vessels.perception_distance = %g must be above satisfaction = %g (%s): drains that near are satisfied already, and nothing would grow"):format(
       r.perception_distance, r.satisfaction, kind), level)
   end
   if r.segment_length > 2 * r.satisfaction then
-    venule.note(("%s: segment_length = %g is more than twice satisfaction = %g: vessels overshoot their drains and run into others"):format(
+    note(("%s: segment_length = %g is more than twice satisfaction = %g: vessels overshoot their drains and run into others"):format(
       kind, r.segment_length, r.satisfaction))
   end
   if r.perception_angle > 180 then
-    venule.note(("%s: perception_angle = %g is above 180: vessels turn back on themselves"):format(kind, r.perception_angle))
+    note(("%s: perception_angle = %g is above 180: vessels turn back on themselves"):format(kind, r.perception_angle))
   end
   if r.bias > 0.9 then
-    venule.note(("%s: bias = %g is above 0.9: vessels run straight past their drains"):format(kind, r.bias))
+    note(("%s: bias = %g is above 0.9: vessels run straight past their drains"):format(kind, r.bias))
   end
   if spacing and spacing > 1.5 * r.perception_distance then
-    venule.note(("drain_spacing = %g is more than perception_distance = %g reaches: vessels lose sight of the next drain"):format(
+    note(("drain_spacing = %g is more than perception_distance = %g reaches: vessels lose sight of the next drain"):format(
       spacing, r.perception_distance))
   end
 end
 
--- What holds in each stage for each kind of tree.
-local function plan(o, given, size, level)
-  local stages = {}
+-- What holds in each stage for each kind of tree: what is said of a kind outweighs what is said of all, and what a stage says of
+-- either outweighs what holds in all stages.
+local function plan(o, given, branches, size, level)
+  local stages, note = {}, teller()
+  if o.stages and #o.stages == 0 then error("vessels.stages: a list {{steps = 100, …}, …} of one or more expected", level) end
   for i, stage in ipairs(o.stages or {{steps = o.steps}}) do
     local name = o.stages and ("vessels.stages[%d]"):format(i) or "vessels"
     local own = o.stages and options.read(name, stage_rows, stage, level) or stage
@@ -129,11 +150,11 @@ local function plan(o, given, size, level)
     local one = {steps = own.steps, domain = own.domain, drains = drains}
     for _, kind in ipairs {"arteries", "veins"} do
       local inner = own[kind] and options.read(name .. "." .. kind, bare(tree_rows), own[kind], level) or {}
-      one[kind] = settle(tree_rows, size, given, given[kind] or {}, own, inner)
-      if o[kind] then check_distances(kind, one[kind], kind == "arteries" and drains.drain_spacing, level + 1) end
+      one[kind] = settle(tree_rows, size, given, own, branches[kind] or {}, inner)
+      if o[kind] then check_distances(kind, one[kind], kind == "arteries" and drains.drain_spacing, note, level + 1) end
     end
     if not drains.darts and not drains.density then drains.darts = 1000 end
-    if drains.darts and drains.density then error("vessels: give either `darts` or `density`", level) end
+    if drains.darts and drains.density or own.darts and own.density then error(name .. ": give either `darts` or `density`", level) end
     stages[i] = one
   end
   return stages
@@ -150,31 +171,29 @@ local function lay_guides(kind, network, guides, first, place, level)
   network:follow(paths, {length = first.segment_length, within = first.perception_distance, domain = place, name = name})
 end
 
-local function start_network(kind, o, first, place, level)
+local function check_point(p, dim, what, level)
+  if type(p) ~= "table" or #p ~= dim then error(("%s: {x, y%s} expected"):format(what, dim == 3 and ", z" or ""), level + 1) end
+end
+
+local function start_network(kind, read, o, first, place, level)
   local dim = place.dim
-  local read = options.read("vessels." .. kind, branch_rows, o[kind], level)
   local network = read.network or venule.network {dim = dim, unit = o.unit}
+  if class_of(network) ~= "venule.network" or network.dim ~= dim then
+    error(("vessels.%s.network: a network of %d dimensions expected, as the domain has"):format(kind, dim), level)
+  end
   network:murray {exponent = first.murray_exponent, tip_radius = first.tip_radius}
   for i, p in ipairs(read.roots or {}) do
-    if type(p) ~= "table" or #p ~= dim then
-      error(("vessels.%s.roots[%d]: {x, y%s} expected"):format(kind, i, dim == 3 and ", z" or ""), level)
-    end
+    local what = ("vessels.%s.roots[%d]"):format(kind, i)
+    check_point(p, dim, what, level)
     local root = network:root(table.unpack(p, 1, dim))
-    if p.heading then network:heading(root, table.unpack(p.heading, 1, dim)) end
+    if p.heading then
+      check_point(p.heading, dim, what .. ".heading", level)
+      network:heading(root, table.unpack(p.heading, 1, dim))
+    end
   end
   if read.guides ~= nil then lay_guides(kind, network, read.guides, first, place, level) end
   if #network == 0 then error(("vessels.%s: give roots = {{x, y}, …}, guides, or a network to go on from"):format(kind), level) end
   return network
-end
-
--- Relative coordinates: the tissue keeps its place and its lengths shrink, λ_t = λ_0 σ_0 / σ_t.
-local function as_growth(o, steps)
-  local domain = o.domain
-  if getmetatable(domain).__name == "venule.growth" then return domain end
-  if o.growth == 0 then return venule.growth.none {domain = domain} end
-  local bounds = domain:bounds()
-  local length = bounds.max[2] - bounds.min[2]
-  return venule.growth.isogonic {domain = domain, from = length, to = length * (1 + steps * o.growth), step = length * o.growth}
 end
 
 local function total_steps(stages)
@@ -185,42 +204,49 @@ end
 
 --- Arteries and veins that grow together, ready to grow: s:step(), s:run{}, s.arteries, s.veins.
 local function vessels(given)
-  local o = options.read("vessels", vessels_rows, given, 2)
-  local grows_itself = getmetatable(o.domain).__name == "venule.growth"
-  if grows_itself and not given.steps and not o.stages then o.steps = math.max(1, o.domain.steps) end
-  local stages = plan(o, given, size_of(o.domain), 3)
-  local steps = total_steps(stages)
-  local tissue = as_growth(o, steps)
-  local dim = tissue.dim
+  local o, branches = options.read("vessels", vessels_rows, given, 2), {}
+  if class_of(o.domain) ~= "venule.domain" and not is_growth(o.domain) then
+    error(("vessels.domain: a domain or a growth expected, got %s"):format(tostring(o.domain)), 2)
+  end
+  for _, kind in ipairs {"arteries", "veins"} do
+    branches[kind] = o[kind] and options.read("vessels." .. kind, branch_rows, o[kind], 2)
+  end
+  if o.veins and branches.veins.network and branches.veins.network == branches.arteries.network then
+    error("vessels.veins.network: it is the arteries' already", 2)
+  end
+  if is_growth(o.domain) and not given.steps and not o.stages then o.steps = math.max(1, o.domain.steps) end
+  local stages = plan(o, given, branches, size_of(o.domain), 3)
+  local dim = o.domain.dim
   local s = {
-    options = o, stages = stages, stage = 1, stage_step = 0, steps = steps, time = 0, tissue = tissue, networks = {}, begun = {},
-    drains = venule.attractors {dim = dim}, sources = venule.attractors {dim = dim},
+    options = o, stages = stages, stage = 1, stage_step = 0, steps = total_steps(stages), time = 0, tissue = o.domain, networks = {},
+    begun = {}, drains = venule.attractors {dim = dim}, sources = venule.attractors {dim = dim},
+    unit = is_growth(o.domain) and o.domain.unit or 1,
   }
   for _, kind in ipairs {"arteries", "veins"} do
     if o[kind] then
-      s[kind] = start_network(kind, o, stages[1][kind], stages[1].domain or tissue, 3)
+      s[kind] = start_network(kind, branches[kind], o, stages[1][kind], stages[1].domain or s.tissue, 3)
       s.networks[kind], s.begun[kind] = s[kind], #s[kind]
     end
   end
   return setmetatable(s, Vessels)
 end
 
--- Today's tissue, or the part of it that the stage is about: under isogonic growth, that keeps its place too.
+-- Today's tissue, or the part of it that the stage is about: in relative coordinates that keeps its place too.
 function Vessels:place()
   return self.stages[self.stage].domain or self.tissue
 end
 
 function Vessels:throw(r)
-  local unit, tissue = self.tissue.unit, self.tissue
+  local unit, place = self.unit, self:place()
   return self.drains:throw {
-    domain = self:place(), count = r.darts, density = r.density and r.density / unit ^ tissue.dim, spacing = r.drain_spacing * unit,
+    domain = place, count = r.darts, density = r.density and r.density / unit ^ place.measure_dim, spacing = r.drain_spacing * unit,
     clearance = r.drain_clearance * unit, network = self.arteries, weight = r.weight, rng = self.options.rng,
   }
 end
 
 --- Let one kind of tree grow by one step; how many nodes it gained.
 function Vessels:grow(kind, attractors, other, into)
-  local r, network, unit = self.stages[self.stage][kind], self[kind], self.tissue.unit
+  local r, network, unit = self.stages[self.stage][kind], self[kind], self.unit
   network:murray {exponent = r.murray_exponent, tip_radius = r.tip_radius * unit}
   local influence = attractors:influence(network, {
     within = r.perception_distance * unit, perception = {angle = r.perception_angle, lateral = r.lateral},
@@ -240,6 +266,20 @@ function Vessels:next_stage()
   end
 end
 
+-- In relative coordinates: the tissue keeps its place and its lengths shrink, λ_t = λ_0 σ_0 / σ_t. A growth that was given moves,
+-- or shrinks its unit, as it will; when it is grown the tissue stays.
+function Vessels:grow_tissue()
+  local tissue = self.tissue
+  if not is_growth(tissue) then
+    self.unit = 1 / (1 + self.options.growth * self.time)
+  elseif self.veins then
+    tissue:advance(self.arteries, self.veins, self.drains, self.sources)
+  else
+    tissue:advance(self.arteries, self.drains)
+  end
+  if is_growth(tissue) then self.unit = tissue.unit end
+end
+
 --- Grow by one step: drains, arteries, veins, tissue (READINGS R20). False when done.
 function Vessels:step()
   if self.time >= self.steps then return false end
@@ -248,14 +288,8 @@ function Vessels:step()
   if self.veins then self:grow("veins", self.sources, self.arteries) end
   self:next_stage()
   if self.time >= self.steps then return false end
-  local tissue = self.tissue
-  local growing
-  if self.veins then
-    growing = tissue:advance(self.arteries, self.veins, self.drains, self.sources)
-  else
-    growing = tissue:advance(self.arteries, self.drains)
-  end
-  return growing or tissue.kind == "none"
+  self:grow_tissue()
+  return true
 end
 
 --- Say what was given up, and what never began.

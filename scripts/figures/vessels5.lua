@@ -37,7 +37,7 @@ end
 local function draw(page, i)
   local panel, column, row = panels[i], (i - 1) % 3, (i - 1) // 3
   local here, s = pen.at(page, 1.08 * column + 0.54 * row, -1.14 * row), panel.system
-  local law = {exponent = panel[3].murray_exponent or 2.55, tip_radius = 0.0005 * s.tissue.unit}
+  local law = {exponent = panel[3].murray_exponent or 2.55, tip_radius = 0.0005 * s.unit}
   here:text(panel[1], -0.48, 0.44, p.size / 50)
   here:text(panel[2], -0.48, -0.52, p.size / 70, "start")
   if panel.veins then here:network(s.veins, law, {color = "#3f6aa8", min_width = 0.45}) end

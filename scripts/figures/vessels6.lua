@@ -33,7 +33,7 @@ venule.result {
     for i, panel in ipairs(panels) do
       local here = pen.at(page, 1.08 * (i - 1), 0)
       here:circle(0, 0, 0.5, "#dcdcdc", 0.003)
-      here:network(panel.system.arteries, {exponent = 2.55, tip_radius = 0.0005 * panel.system.tissue.unit}, {color = "#c23b2e", min_width = 1})
+      here:network(panel.system.arteries, {exponent = 2.55, tip_radius = 0.0005 * panel.system.unit}, {color = "#c23b2e", min_width = 1})
       here:text(panel[1], 0, -0.58, p.size / 60)
     end
   end,

@@ -88,6 +88,6 @@ function testWhatAScriptGetsWrongIsNamed()
   fails(function() mesh {vertices = {}, faces = {}} end, "mesh: the mesh is empty")
   fails(function() mesh {faces = {}} end, "mesh.vertices: a list expected, got nil")
   fails(function() mesh "no-such.obj" end, "no-such.obj: cannot be read")
-  fails(function() mesh(7) end, "7: a mesh is read from .obj, .off, .ply or .stl")
+  fails(function() mesh(7) end, "7: a mesh is read from .obj, .off, .ply, .stl, .glb or .gltf")
   fails(function() return mesh {vertices = corners, faces = {{1, 2, 3}}} - venule.domain.sphere {} end, "a surface cannot be combined")
 end

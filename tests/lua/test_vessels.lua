@@ -65,7 +65,7 @@ end
 
 function TestVessels:testTissueThatStays()
   local s = system {growth = 0}:run {}
-  lu.assertEquals(s.tissue.unit, 1)
+  lu.assertEquals(s.unit, 1)
   lu.assertEquals(s.time, 40)
 end
 
@@ -73,7 +73,7 @@ end
 function TestVessels:testSegmentsShrinkAsTheTissueGrows()
   local s = system()
   while true do
-    local first, unit = #s.arteries + 1, s.tissue.unit
+    local first, unit = #s.arteries + 1, s.unit
     local more = s:step()
     for i = first, #s.arteries do
       local p = s.arteries.parent[i]
@@ -82,8 +82,8 @@ function TestVessels:testSegmentsShrinkAsTheTissueGrows()
     end
     if not more then break end
   end
-  lu.assertAlmostEquals(s.tissue.unit, 1 / (1 + 39 * 0.02), 1e-12)
-  lu.assertAlmostEquals(s.arteries.radius[#s.arteries], 0.0005 * s.tissue.unit, 1e-12)
+  lu.assertAlmostEquals(s.unit, 1 / (1 + 39 * 0.02), 1e-12)
+  lu.assertAlmostEquals(s.arteries.radius[#s.arteries], 0.0005 * s.unit, 1e-12)
 end
 
 function TestVessels:testStages()
