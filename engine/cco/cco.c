@@ -40,7 +40,7 @@ static const vn_field cco_fields[] = {
     {"foresight", VN_F64, VN_OPTIONAL, offsetof(vn_cco_def, foresight), 0, 100, "", NULL,
      "room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + "
      "foresight / √m "
-     "times its share of the flow; left out: 4, and 0 for a list of terminals"},
+     "times its share of the flow; left out: 4 in space, 1 in the plane, and 0 for a list of terminals"},
     {"bifurcation", VN_CHOICE, 0, offsetof(vn_cco_def, bifurcation), 0, 0, "", "least|kamiya|ceres",
      "the bifurcation point: of least volume; by Equations 8 to 13 alone; or these with the system (12) "
      "solved by Ceres"},
@@ -145,11 +145,11 @@ vn_status vn_cco_create(vn_cco **out, const vn_cco_def *def) {
     }
     cco->def = *def;
     cco->def.terminals = def->list != NULL ? def->list_count : def->terminals;
-    cco->def.foresight = def->foresight >= 0 ? def->foresight : def->list != NULL ? 0 : 4;
     cco->def.tries = def->tries > 0 ? def->tries : def->placement == VN_PLACE_TERMINALS ? 1000 : 100;
     cco->def.domain = vn_domain_retain(def->domain);
     cco->part = vn_domain_retain(def->domain);
     cco->dim = vn_domain_dim(def->domain);
+    cco->def.foresight = def->foresight >= 0 ? def->foresight : def->list != NULL ? 0 : cco->dim == 3 ? 4 : 1;
     vn_box bounds = vn_domain_bounds(def->domain);
     memcpy(cco->low, bounds.min, sizeof cco->low);
     memcpy(cco->high, bounds.max, sizeof cco->high);
@@ -643,6 +643,13 @@ static vn_status begin_anew(vn_cco *cco, vn_grower *g, int32_t tree) {
     return start_darts(cco, g, tree);
 }
 
+// Where an organ is so full that every other terminal fails, vessels cannot all have the room that they
+// should.
+static double foresight_after(const vn_cco *cco, int32_t draws) {
+    enum { FULL = 2 };
+    return draws <= FULL ? cco->def.foresight : ldexp(cco->def.foresight, FULL - draws);
+}
+
 static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
     for (int32_t i = 0; i <= cco->def.redraws; i++) {
         double p[3], flow;
@@ -654,6 +661,7 @@ static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
         VN_TRY(found);
         VN_TRY(flow_at(g, p, &flow));
         cco->patient = i < cco->def.redraws / 4 && cco->def.foresight > 0;
+        cco->foresight = foresight_after(cco, i);
         VN_TRY(vn_connect(cco, g, p, flow, &done));
         if (done) {
             return VN_OK;
@@ -694,6 +702,7 @@ static vn_status add_listed(vn_cco *cco, vn_grower *g) {
     double flow;
     bool done;
     VN_TRY(flow_at(g, p, &flow));
+    cco->foresight = cco->def.foresight;
     VN_TRY(vn_connect(cco, g, p, flow, &done));
     if (!done) {
         return vn_fail(

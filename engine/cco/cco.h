@@ -86,6 +86,7 @@ struct vn_cco {
     vn_domain *part;        ///< where terminals fall now; the domain itself or a part
     bool patient;           ///< another terminal will be drawn if this one does not fit well
     bool provident;         ///< vessels are to have room to thicken
+    double foresight;       ///< how much: less with every terminal that was drawn in vain
     VN_ARRAY(vn_grower) growers;
     VN_ARRAY(vn_squeeze) squeezes; ///< working memory of rules.c
 };

@@ -36,7 +36,7 @@ static double foresight(const vn_cco *cco, const vn_grower *g, double flow) {
         return 1;
     }
     double ahead = log2((double)g->wanted / (g->terminals + 1));
-    double most = cbrt(1 + cco->def.foresight / sqrt(fmax(flow / g->terminal_flow, 1)));
+    double most = cbrt(1 + cco->foresight / sqrt(fmax(flow / g->terminal_flow, 1)));
     return 1 + (most - 1) * fmin(ahead / 4, 1);
 }
 
