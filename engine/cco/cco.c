@@ -643,11 +643,12 @@ static vn_status begin_anew(vn_cco *cco, vn_grower *g, int32_t tree) {
     return start_darts(cco, g, tree);
 }
 
-// Where an organ is so full that every other terminal fails, vessels cannot all have the room that they
-// should.
+// A disk with many terminals is so full that every other one fails: vessels cannot all have the room that
+// they should. In space that does not come, and vessels would get stuck more often.
 static double foresight_after(const vn_cco *cco, int32_t draws) {
     enum { FULL = 2 };
-    return draws <= FULL ? cco->def.foresight : ldexp(cco->def.foresight, FULL - draws);
+    bool eases = cco->dim == 2 && draws > FULL;
+    return eases ? ldexp(cco->def.foresight, FULL - draws) : cco->def.foresight;
 }
 
 static vn_status try_random(vn_cco *cco, vn_grower *g, int32_t tree) {
