@@ -42,9 +42,9 @@ typedef struct vn_cco_def {
         most_candidates; ///< but no more than these; default 640, beyond which next to nothing is ever found
     int32_t redraws;     ///< terminals drawn anew before the tree counts as full; default 200
     /// New vessels need room to thicken later: so that a subtree of m terminals may come to 1 + foresight /
-    /// sqrt(m) times its share of the flow; less where one terminal after another finds none. Without it
+    /// sqrt(m) times its share of the flow; less where draw after draw fails in the plane. Without it
     /// vessels near the root get stuck between others now and then, and part of the organ stays empty. 0:
-    /// none is asked for; default -1: 4 in space, 1 in the plane (where that has never happened), 0 for a
+    /// none is asked for; default -1: 4 in space, 1 in the plane, where it hardly happens, 0 for a
     /// list of terminals.
     double foresight;
     int bifurcation;        ///< 0 "least": the point of least volume; 1 "kamiya": Equations 8 to 13 alone; 2
