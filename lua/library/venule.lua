@@ -352,7 +352,7 @@ function venule.brochidodromous(options) end
 ---@field candidates? integer # nearest segments that are tried; twice as many while none will do
 ---@field most_candidates? integer # but no more than these for one terminal, which is then drawn anew
 ---@field redraws? integer # terminals drawn anew before the domain counts as full
----@field foresight? number # room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + foresight / √m times its share of the flow; left out: 4, and 0 for a list of terminals
+---@field foresight? number # room that new vessels need to thicken later: so that a subtree of m terminals may come to 1 + foresight / √m times its share of the flow; left out: 4 in space, 1 in the plane, and 0 for a list of terminals
 ---@field bifurcation? "least"|"kamiya"|"ceres" # the bifurcation point: of least volume; by Equations 8 to 13 alone; or these with the system (12) solved by Ceres
 ---@field border_distance? number # that vessels keep from the border
 ---@field growing_domain? boolean # sizes hold as if the domain grew with the tree (Equation 14)
@@ -384,7 +384,7 @@ function venule.cco(options) end
 ---@field rng any # the random numbers: venule.rng(seed)
 ---@field arteries table # {roots = {…}}, or guides =, or network =, with options that are to hold for arteries alone
 ---@field veins? table # likewise; left out: none grow
----@field steps? number # how many; left out where there are stages or the domain grows by itself: theirs
+---@field steps? integer # how many; left out where there are stages or the domain grows by itself: theirs
 ---@field growth? number # Δσ: what a step adds to the size of the tissue, by its size at first; 0: it stays
 ---@field stages? table # {{steps = 100, …}, …}: one after the other, each with options of its own
 ---@field avoid? boolean # arteries and veins keep clear of one another, as tubes of their radii
@@ -400,13 +400,13 @@ function venule.cco(options) end
 ---@field bifurcate? boolean # whether leaves fork at all
 ---@field lateral? boolean # whether inter-nodes grow laterals
 ---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
----@field darts? integer # thrown in each step; left out, with density: 1000
+---@field darts? integer # thrown in each step (into a blade whose margin grows: in all); left out, with density: 1000
 ---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
 ---@field weight? any # a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen
 ---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
 ---@field drain_clearance? number # ε_n: and this far from arteries
 
----Arteries and veins that grow together (Rauch & Harders 2021), ready to grow: `s:run{progress=}`, `s:step()` (false when done), `s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`. Lengths are those at the size that the tissue has at first; left out, they are parts of the domain's longest side. What `arteries`, `veins` and a stage may say is below. The loop is plain Lua in lua/venule/vessels.lua; copy it when an option is not enough.
+---Arteries and veins that grow together (Rauch & Harders 2021), ready to grow: `s:run{progress=}`, `s:step()` (false when done), `s.arteries`, `s.veins`, both by name in `s.networks`, `s.drains`, `s.sources`, `s.tissue`, `s.unit`. Lengths are those at the size that the tissue has at first; left out, they are parts of the domain's longest side. What `arteries`, `veins` and a stage may say is below. The loop is plain Lua in lua/venule/vessels.lua; copy it when an option is not enough.
 ---@param options venule.vessels.Options
 ---@return venule.VesselsSystem
 function venule.vessels(options) end
@@ -475,7 +475,7 @@ function venule.plot(options) end
 ---@field bifurcate? boolean # whether leaves fork at all
 ---@field lateral? boolean # whether inter-nodes grow laterals
 ---@field murray_exponent? number # κ: r^κ adds up where vessels part, and branching angles follow from it
----@field darts? integer # thrown in each step; left out, with density: 1000
+---@field darts? integer # thrown in each step (into a blade whose margin grows: in all); left out, with density: 1000
 ---@field density? number # ρ: or darts per area (volume) of the grown tissue and step
 ---@field weight? any # a map (a domain with values) or function(x, y[, z]), 0 to 1: which part of the darts stays where they fall; regions that lack oxygen
 ---@field drain_spacing? number # ε_s: a new drain keeps this far from other drains
@@ -709,7 +709,8 @@ function CcoSystem:run(options) end
 ---@field networks table<string, venule.Network> # both, by name
 ---@field drains venule.Attractors # oxygen drains, which arteries grow toward
 ---@field sources venule.Attractors # of carbon dioxide, which veins grow toward
----@field tissue venule.Growth # where; `tissue.unit` is today's unit of length
+---@field tissue venule.Domain|venule.Growth # where
+---@field unit number # today's unit of length, in the coordinates of the simulation: 1 at first, smaller as the tissue grows
 ---@field time integer # steps taken
 ---@field steps integer # of all stages
 ---@field stage integer # which is under way
@@ -820,7 +821,7 @@ function venule.domain.volume(path, options) end
 ---@field check? boolean # of an inside: refuse a mesh that crosses itself; without, what is in two of its parts is outside (default true)
 ---@field repair? boolean # mend vertices that nearly coincide, faces that are there twice, have no area or are turned, open seams and, for an inside, holes; otherwise such a mesh is refused (default false)
 
----The surface of a mesh in 3D, or with `on = "inside"` what it encloses: of an .obj, .off, .ply or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a cavity, whichever way their faces turn. With `repair = true` broken meshes are mended as far as that can be, and a second result says how much: {merged = vertices that nearly coincided, removed = faces that were there twice or had no area, turned = faces, sewn = pairs of edges, holes =, largest_hole = edges}.
+---The surface of a mesh in 3D, or with `on = "inside"` what it encloses: of an .obj, .off, .ply, .glb, .gltf or .stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be below the distance of folds. For an inside the mesh has to be closed; a shell in a shell bounds a cavity, whichever way their faces turn. With `repair = true` broken meshes are mended as far as that can be, and a second result says how much: {merged = vertices that nearly coincided, removed = faces that were there twice or had no area, turned = faces, sewn = pairs of edges, holes =, largest_hole = edges}.
 ---@param mesh string|{vertices: number[][], faces: integer[][]}
 ---@param options? venule.mesh.Options
 ---@return venule.Domain, table?
@@ -914,6 +915,7 @@ function venule.growth.morph(options) end
 ---@operator add(venule.Domain): venule.Domain
 ---@operator mul(venule.Domain): venule.Domain
 ---@field dim integer # 2 or 3
+---@field measure_dim integer # 2 where its measure is an area, 3 where it is a volume
 ---@field unit string # the length unit of its file, or ""
 local Domain = {}
 
@@ -969,6 +971,7 @@ function Domain:sample(n, options) end
 ---@field time integer # steps taken
 ---@field steps integer # steps from first to grown
 ---@field grown boolean # whether advance() has nothing left to do
+---@field measure_dim integer # 2 where its measure is an area, 3 where it is a volume
 ---@field length number # today's length
 ---@field final_length number # the length when grown
 ---@field unit number # today's unit length in the simulation's coordinates: 1 at first (READINGS R7)

@@ -1,7 +1,5 @@
 // Vessels (Rauch & Harders 2021, section 3) against slow, obvious ones, and the golden values of READINGS.
-#include "support.h"
-
-static const double DEGREES = 180 / 3.14159265358979323846;
+#include "vessels_support.h"
 
 // ---- What a node perceives, from the paper's words ----
 
@@ -26,28 +24,6 @@ static bool may_grow(const vn_network *net, int32_t node, bool lateral) {
     int32_t child;
     int count = children_of(net, node, &child);
     return count == 0 || (lateral && count == 1 && vn_network_parent(net)[node] >= 0);
-}
-
-static void place(const vn_network *net, int32_t node, double p[3]) {
-    p[0] = vn_network_x(net)[node];
-    p[1] = vn_network_y(net)[node];
-    p[2] = vn_network_z(net) != NULL ? vn_network_z(net)[node] : 0;
-}
-
-static double angle_between(const double a[3], const double b[3]) {
-    double dot = 0, aa = 0, bb = 0;
-    for (int k = 0; k < 3; k++) {
-        dot += a[k] * b[k];
-        aa += a[k] * a[k];
-        bb += b[k] * b[k];
-    }
-    return acos(fmin(fmax(dot / sqrt(aa * bb), -1), 1)) * DEGREES;
-}
-
-// Equation 1 for the branch r, where the other one is l.
-static double branch_angle(double l, double r, double kappa) {
-    double p = pow(pow(l, kappa) + pow(r, kappa), 1 / kappa);
-    return acos((pow(p, 4) - pow(l, 4) + pow(r, 4)) / (2 * p * p * r * r)) * DEGREES;
 }
 
 // 1: perceived, 0: not, -1: too near to the border of the zone to say.
@@ -266,174 +242,6 @@ static void test_influence_on_a_lattice(void **state) {
     }
 }
 
-// ---- Golden values (READINGS) ----
-
-static vn_network *vessel_of(int dim, double kappa) {
-    vn_network *net = network_of(dim);
-    vn_murray_def law = {.exponent = kappa, .tip_radius = 1};
-    assert_ok(vn_network_murray(net, &law));
-    return net;
-}
-
-static void grow_once(vn_network *net, vn_attractors *a, double gamma, const vn_extend_def *grow) {
-    vn_influence *f = NULL;
-    vn_influence_def def = vn_influence_def_default();
-    int32_t added, first;
-    def.within = 10;
-    def.perception = (vn_perception){gamma, true};
-    assert_ok(vn_influence_find(&f, a, net, &def));
-    assert_ok(vn_extend(net, f, grow, &added, &first));
-    vn_influence_destroy(f);
-}
-
-// An inter-node whose child carries so many tips.
-static double lateral_angle(double kappa, int tips) {
-    vn_network *net = vessel_of(2, kappa);
-    vn_zone_shape zone;
-    vn_perception perception = {90, true};
-    int32_t node = put_child(net, put_root(net, 0, 0, 0), 1, 0, 0);
-    int32_t child = put_child(net, node, 2, 0, 0);
-    for (int i = 0; i < tips; i++) {
-        put_child(net, child, 3, i, 0);
-    }
-    assert_ok(vn_network_zone(net, node, &perception, &zone));
-    assert_int_equal(zone.kind, VN_ZONE_BELT);
-    assert_near(zone.angle, branch_angle(pow(tips, 1 / kappa), 1, kappa), 1e-9);
-    vn_network_destroy(net);
-    return zone.angle;
-}
-
-static void test_angles_of_laterals(void **state) {
-    (void)state;
-    assert_near(lateral_angle(2.55, 1), 30.5556, 5e-5);
-    assert_near(lateral_angle(2.55, 10), 57.8868, 5e-5);
-    assert_near(lateral_angle(2.55, 100), 72.4, 0.05);
-    assert_near(lateral_angle(2.1, 1), 14.6403, 5e-5);
-    assert_near(lateral_angle(2.9, 1), 36.2496, 5e-5);
-    assert_near(lateral_angle(3, 1), 37.4673, 5e-5);
-    assert_near(lateral_angle(4, 1), 45, 1e-9);
-    for (int tips = 1; tips < 600; tips += 37) { // past the table, and turning outwards all along
-        assert_true(lateral_angle(2.55, tips + 1) > lateral_angle(2.55, tips));
-        assert_true(lateral_angle(2.55, tips) < 90);
-    }
-}
-
-static double bent_by(double bias, bool mean) {
-    vn_network *net = vessel_of(2, 2.55);
-    vn_attractors *a = attractors_of(2, 1);
-    vn_extend_def grow = vn_extend_def_default();
-    put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
-    put_attractor(a, 3 * cos(10 / DEGREES), 3 * sin(10 / DEGREES), 0);
-    put_attractor(a, 4 * cos(50 / DEGREES), 4 * sin(50 / DEGREES), 0);
-    grow.bias = bias;
-    grow.bias_mean = mean;
-    grow_once(net, a, 120, &grow);
-    assert_int_equal(vn_network_count(net), 3);
-    double angle = atan2(vn_network_y(net)[2], vn_network_x(net)[2]) * DEGREES;
-    vn_attractors_destroy(a);
-    vn_network_destroy(net);
-    return angle;
-}
-
-static void test_bias(void **state) {
-    (void)state;
-    assert_near(bent_by(0.5, false), 19.68, 0.005);
-    assert_near(bent_by(0.5, true), 15, 1e-9);
-    assert_near(bent_by(0, false), 30, 1e-9);
-    assert_near(bent_by(1, false), 0, 1e-9);
-}
-
-static void test_forks_in_the_plane(void **state) {
-    (void)state;
-    static const double golden[][2] = {
-        {2.1, 14.6403}, {2.55, 30.5556}, {2.9, 36.2496}, {3, 37.4673}, {4, 45}};
-    for (int i = 0; i < 5; i++) {
-        vn_network *net = vessel_of(2, golden[i][0]);
-        vn_attractors *a = attractors_of(2, 1);
-        vn_extend_def grow = vn_extend_def_default();
-        put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
-        put_attractor(a, 3, 2, 0);
-        put_attractor(a, 3, -2, 0);
-        grow.bifurcate = 33; // they deviate by 33.69°
-        grow_once(net, a, 90, &grow);
-        assert_int_equal(vn_network_count(net), 4);
-        for (int node = 2; node < 4; node++) {
-            assert_int_equal(vn_network_parent(net)[node], 1);
-            assert_near(fabs(atan2(vn_network_y(net)[node], vn_network_x(net)[node])) * DEGREES, golden[i][1],
-                        5e-5);
-        }
-        assert_true(vn_network_y(net)[2] * vn_network_y(net)[3] < 0);
-        vn_attractors_destroy(a);
-        vn_network_destroy(net);
-    }
-}
-
-// One degree less spread than φ: the vessel goes on as one.
-static void test_below_the_threshold(void **state) {
-    (void)state;
-    vn_network *net = vessel_of(2, 2.55);
-    vn_attractors *a = attractors_of(2, 1);
-    vn_extend_def grow = vn_extend_def_default();
-    put_child(net, put_root(net, -1, 0, 0), 0, 0, 0);
-    put_attractor(a, 3, 2, 0);
-    put_attractor(a, 3, -2, 0);
-    grow.bifurcate = 34;
-    grow_once(net, a, 90, &grow);
-    assert_int_equal(vn_network_count(net), 3);
-    vn_attractors_destroy(a);
-    vn_network_destroy(net);
-}
-
-static void test_fork_in_space(void **state) {
-    (void)state;
-    static const double drains[4][3] = {
-        {.03, .01, .05}, {-.025, -.005, .045}, {.02, .012, .04}, {-.03, -.014, .05}};
-    static const double golden[2][3] = {{-.481012, -.165932, .860868}, {.465283, .205958, .860868}};
-    vn_network *net = vessel_of(3, 2.55);
-    vn_attractors *a = attractors_of(3, 1);
-    vn_extend_def grow = vn_extend_def_default();
-    put_child(net, put_root(net, 0, 0, -1), 0, 0, 0);
-    for (int i = 0; i < 4; i++) {
-        put_attractor(a, drains[i][0], drains[i][1], drains[i][2]);
-    }
-    grow.bifurcate = 15;
-    grow_once(net, a, 180, &grow);
-    assert_int_equal(vn_network_count(net), 4);
-    double p[2][3];
-    place(net, 2, p[0]);
-    place(net, 3, p[1]);
-    int first = p[0][0] < 0 ? 0 : 1;
-    for (int k = 0; k < 3; k++) {
-        assert_near(p[first][k], golden[0][k], 1e-6);
-        assert_near(p[1 - first][k], golden[1][k], 1e-6);
-    }
-    assert_near(angle_between(p[0], p[1]), 61.111157, 1e-6);
-    vn_attractors_destroy(a);
-    vn_network_destroy(net);
-}
-
-// A root looks all around, and has one child; with a heading it has a cone.
-static void test_roots(void **state) {
-    (void)state;
-    vn_network *net = vessel_of(2, 2.55);
-    vn_zone_shape zone;
-    vn_perception perception = {90, true};
-    double up[3] = {0, 2, 0}, nowhere[3] = {0, 0, 0};
-    int32_t root = put_root(net, 0, 0, 0);
-    assert_ok(vn_network_zone(net, root, &perception, &zone));
-    assert_int_equal(zone.kind, VN_ZONE_BALL);
-    assert_ok(vn_network_set_heading(net, root, up));
-    assert_ok(vn_network_zone(net, root, &perception, &zone));
-    assert_int_equal(zone.kind, VN_ZONE_CONE);
-    assert_near(zone.direction[1], 1, 1e-15);
-    assert_int_equal(vn_network_set_heading(net, root, nowhere), VN_INVALID);
-    int32_t child = put_child(net, root, 0, 1, 0);
-    assert_ok(vn_network_zone(net, root, &perception, &zone));
-    assert_int_equal(zone.kind, VN_ZONE_NONE);
-    assert_int_equal(vn_network_set_heading(net, child, up), VN_INVALID);
-    vn_network_destroy(net);
-}
-
 // ---- Laws ----
 
 static bool is_fork(const vn_network *net, int32_t node, int32_t first) {
@@ -643,60 +451,33 @@ static void test_relative_growth_is_growth(void **state) {
     }
 }
 
-// ---- Bad input ----
-
-static void test_bad_input(void **state) {
+// A throw that found no memory for its short cuts can be made again.
+static void test_throws_without_memory(void **state) {
     (void)state;
-    vn_network *net = network_of(2);
-    vn_attractors *a = attractors_of(2, 1);
-    vn_influence *f = NULL;
-    vn_influence_def def = vn_influence_def_default();
-    vn_extend_def grow = vn_extend_def_default();
-    vn_murray_def law = {.exponent = 5, .tip_radius = 1};
-    int32_t added, first;
-    put_root(net, 0, 0, 0);
-    put_attractor(a, 0.5, 0, 0);
-    def.perception.angle = 90;
-    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
-    assert_message("Murray's law");
-    assert_ok(vn_network_murray(net, &law));
-    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
-    assert_message("murray.exponent = 5 must be above 2 and at most 4");
-    law.exponent = 2;
-    assert_ok(vn_network_murray(net, &law));
-    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
-    law.exponent = 3;
-    assert_ok(vn_network_murray(net, &law));
-    def.mode = VN_RELATIVE;
-    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
-    assert_message("nearest");
-    def.mode = VN_NEAREST;
-    def.perception.angle = 400;
-    assert_int_equal(vn_influence_find(&f, a, net, &def), VN_INVALID);
-    def.perception.angle = 0;
-    assert_ok(vn_influence_find(&f, a, net, &def));
-    grow.bias = 0.5;
-    assert_int_equal(vn_extend(net, f, &grow, &added, &first), VN_INVALID);
-    assert_message("perception");
-    vn_influence_destroy(f);
-    vn_attractors_destroy(a);
-    vn_network_destroy(net);
+    for (int64_t fails = 1; fails < 40; fails++) {
+        garden g = garden_of(2, 5);
+        vn_throw_def def = vn_throw_def_default();
+        int32_t accepted;
+        def.domain = g.domain;
+        def.count = 200;
+        def.spacing = 0.1;
+        def.clearance = 0.1;
+        def.network = g.net;
+        def.rng = &g.rng;
+        vn_fail_allocations_from(fails);
+        vn_status status = vn_throw(g.a, &def, &accepted);
+        vn_fail_allocations_from(-1);
+        assert_true(status == VN_OK || status == VN_NO_MEMORY);
+        assert_ok(vn_throw(g.a, &def, &accepted));
+        end_garden(&g);
+    }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        counted_test(test_angles_of_laterals),
-        counted_test(test_bias),
-        counted_test(test_forks_in_the_plane),
-        counted_test(test_below_the_threshold),
-        counted_test(test_fork_in_space),
-        counted_test(test_roots),
-        counted_test(test_directions_are_allowed),
-        counted_test(test_radii_stay_murrays),
-        counted_test(test_darts_stick_where_they_should),
-        counted_test(test_relative_growth_is_growth),
-        counted_test(test_bad_input),
-        counted_test(test_influence_of_random_vessels),
+        counted_test(test_directions_are_allowed),        counted_test(test_radii_stay_murrays),
+        counted_test(test_darts_stick_where_they_should), counted_test(test_relative_growth_is_growth),
+        counted_test(test_throws_without_memory),         counted_test(test_influence_of_random_vessels),
         counted_test(test_influence_on_a_lattice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
