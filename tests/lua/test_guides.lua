@@ -69,7 +69,7 @@ function testVesselsBeginWithTheGuides()
   s:run()
   lu.assertTrue(#net > 3 * laid, #net)
   lu.assertEquals(net:measure().roots, 1)
-  local unit = s.tissue.unit
+  local unit = s.unit
   check_murray(net, 2.55, 0.0005 * unit)
   -- What grows by itself hangs from all of the guides.
   local from = {}

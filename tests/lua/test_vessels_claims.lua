@@ -138,12 +138,12 @@ function testWithoutGrowthLengthsStay()
   local low, high = lengths(net)
   lu.assertAlmostEquals(low, 0.022, 1e-12)
   lu.assertAlmostEquals(high, 0.022, 1e-12)
-  lu.assertEquals(s.tissue.unit, 1)
+  lu.assertEquals(s.unit, 1)
   net, s = grow(1, {})
   low, high = lengths(net)
   lu.assertAlmostEquals(high, 0.022, 1e-12)
-  lu.assertAlmostEquals(s.tissue.unit, 1 / (1 + 59 * 0.02), 1e-9)
-  lu.assertAlmostEquals(low, 0.022 * s.tissue.unit, 1e-3 * low)
+  lu.assertAlmostEquals(s.unit, 1 / (1 + 59 * 0.02), 1e-9)
+  lu.assertAlmostEquals(low, 0.022 * s.unit, 1e-3 * low)
 end
 
 -- Parameters that ask for the artefacts of Figure 6 are named in a note; those of Figure 5 are not.
