@@ -112,7 +112,7 @@ struct vn_attractors {
     bool has_room;
 
     VN_ARRAY(vn_sleep) sleep; ///< of attractors that were not perceived; may be shorter than the set
-    uint64_t turned; ///< the network's, when these fell asleep
+    uint64_t turned;          ///< the network's, when these fell asleep
     vn_gaze gaze;             ///< where it is open, `node` is the nearest that may still grow
 
     // What the remembered nodes were taken from.

@@ -70,8 +70,8 @@ static void first_ranked(const sprout *s, double n[3]) {
     vn_direction_to(e, e->node, first->value, n);
 }
 
-// v of Equation 4: straight on, or Murray's optimal branch on the side of the attraction @p toward; where that
-// leads along the vessel, on the side of the first-ranked attractor (R18).
+// v of Equation 4: straight on, or Murray's optimal branch on the side of the attraction @p toward; where
+// that leads along the vessel, on the side of the first-ranked attractor (R18).
 static void preferred(const sprout *s, const double toward[3], double v[3]) {
     const vn_zone *zone = &s->zone;
     double side[3], unit[3] = {toward[0], toward[1], toward[2]};

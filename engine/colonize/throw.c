@@ -246,8 +246,8 @@ static vn_status make_cover(vn_attractors *a, const vn_throw_def *def) {
     a->cover_network = 0; // nobody's, should there be no memory for it
     a->cover_nodes = 0;
     a->cover_darts = 0;
-    VN_TRY(vn_cover_init(&a->cover, a->dim, bounds.min, bounds.max,
-                         (shrinks ? 0.85 : 0.999) * def->clearance));
+    VN_TRY(
+        vn_cover_init(&a->cover, a->dim, bounds.min, bounds.max, (shrinks ? 0.85 : 0.999) * def->clearance));
     a->cover_network = def->network->serial;
     a->cover_moved = def->network->moved;
     return VN_OK;

@@ -17,8 +17,8 @@ static bool accept_grower(int32_t node, void *payload) {
     return vn_gaze_may_grow(&g->a->gaze, g->network, node);
 }
 
-// However many nearer ones cannot. What the attractor's patience is counted from stays, though the new node is
-// farther off: nodes that fill up one after another would renew it for ever.
+// However many nearer ones cannot. What the attractor's patience is counted from stays, though the new node
+// is farther off: nodes that fill up one after another would renew it for ever.
 vn_status vn_look_for_grower(vn_attractors *a, vn_network *network, int32_t i) {
     const vn_point_grid *grid;
     growers payload = {a, network};

@@ -98,7 +98,8 @@ struct vn_network {
     uint64_t serial;  ///< which network this is, among all of the process
     uint64_t version; ///< changes with every change
     uint64_t moved;   ///< changes when nodes that were there moved
-    uint64_t turned;  ///< changes when a direction did that a node perceives along: of a heading, or a split edge
+    uint64_t
+        turned; ///< changes when a direction did that a node perceives along: of a heading, or a split edge
     vn_point_grid grid;
     uint64_t grid_moved;
     int32_t grid_count;           ///< nodes when its cells were chosen

@@ -328,7 +328,8 @@ const vnl_function vnl_domain_functions[] = {
      "(mesh: string|{vertices: number[][], faces: integer[][]}, options?: venule.mesh.Options): "
      "venule.Domain, table?",
      NULL,
-     "The surface of a mesh in 3D, or with `on = \"inside\"` what it encloses: of an .obj, .off, .ply, .glb, .gltf or "
+     "The surface of a mesh in 3D, or with `on = \"inside\"` what it encloses: of an .obj, .off, .ply, .glb, "
+     ".gltf or "
      ".stl file, or of a table of vertices {x, y, z} and of faces {a, b, c, …}, which count the vertices "
      "from 1. Veins grow along a surface: new nodes are brought onto it, no edge crosses its border or "
      "jumps from one sheet of a fold to another. Distances are straight ones in space: `within` should be "
@@ -462,9 +463,9 @@ static int domain_field(lua_State *L) {
     return 0;
 }
 
-static const char *const fields[] = {"dim: integer | 2 or 3",
-                                     "measure_dim: integer | 2 where its measure is an area, 3 where it is a volume",
-                                     "unit: string | the length unit of its file, or \"\"", NULL};
+static const char *const fields[] = {
+    "dim: integer | 2 or 3", "measure_dim: integer | 2 where its measure is an area, 3 where it is a volume",
+    "unit: string | the length unit of its file, or \"\"", NULL};
 
 const vnl_function vnl_domain_methods[] = {
     {"contains", domain_contains, "(x: number, y: number, z?: number): boolean", NULL,

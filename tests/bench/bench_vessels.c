@@ -185,8 +185,12 @@ static outcome ball(int32_t nodes, double *bytes) {
     organ o = organ_of(domain, false);
     put_root(o.net[0], -0.5, 0);
     while (nodes_of(&o) < nodes && o.sigma < 100) {
-        stage s = {
-            1, 1000 + (int32_t)(100 * o.sigma * o.sigma * o.sigma), 0.03, 0.04, 0.03, 0.065, 0, 0.03, 90, 0.5, 2.55};
+        stage s = {1,    1000 + (int32_t)(100 * o.sigma * o.sigma * o.sigma),
+                   0.03, 0.04,
+                   0.03, 0.065,
+                   0,    0.03,
+                   90,   0.5,
+                   2.55};
         out.late = step(&o, &s);
         out.seconds += out.late;
     }
