@@ -153,7 +153,7 @@ static bool step_to_one(const vn_extension *e, double p[3]) {
     uint64_t least = 0;
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         double q[3];
-        uint64_t rank = vn_hash(e->a->seed, e->a->id.data[pair->value], (uint64_t)e->node, 0);
+        uint64_t rank = vn_rank(e, pair->value);
         if ((!found || rank < least) && may_step_to(e, e->node, pair->value, q)) {
             found = true;
             least = rank;

@@ -20,6 +20,10 @@ typedef struct vn_extension {
 double vn_direction_to(const vn_extension *e, int32_t node, int32_t attractor, double n[3]);
 /// The sum of the unit vectors from e->node to its attractors.
 void vn_sum_directions(const vn_extension *e, double sum[3]);
+/// By this an attractor ranks among those of e->node: the least comes first (READINGS R3).
+static inline uint64_t vn_rank(const vn_extension *e, int32_t attractor) {
+    return vn_hash(e->a->seed, e->a->id.data[attractor], (uint64_t)e->node, 0);
+}
 /// Where a step from @p node along the unit vector @p n leads, brought onto the domain where that is a
 /// surface.
 void vn_step_from(const vn_extension *e, int32_t node, const double n[3], double p[3]);

@@ -63,9 +63,7 @@ static void first_ranked(const sprout *s, double n[3]) {
     const vn_extension *e = s->e;
     const vn_keyed *first = e->begin;
     for (const vn_keyed *pair = e->begin + 1; pair < e->end; pair++) {
-        uint64_t rank = vn_hash(e->a->seed, e->a->id.data[pair->value], (uint64_t)e->node, 0);
-        uint64_t least = vn_hash(e->a->seed, e->a->id.data[first->value], (uint64_t)e->node, 0);
-        first = rank < least ? pair : first;
+        first = vn_rank(e, pair->value) < vn_rank(e, first->value) ? pair : first;
     }
     vn_direction_to(e, e->node, first->value, n);
 }
@@ -126,7 +124,7 @@ static bool aim_at_one(const sprout *s, double p[3]) {
     uint64_t least = 0;
     for (const vn_keyed *pair = e->begin; pair < e->end; pair++) {
         double n[3], g[3], q[3];
-        uint64_t rank = vn_hash(e->a->seed, e->a->id.data[pair->value], (uint64_t)e->node, 0);
+        uint64_t rank = vn_rank(e, pair->value);
         vn_direction_to(e, e->node, pair->value, n);
         if ((!found || rank < least) && biased(s, n, g) && leads_to(s, g, q)) {
             found = true;

@@ -144,7 +144,7 @@ static bool is_clear(const clearing *c, const double p[3], int32_t *refuser) {
 typedef struct refusals {
     const clearing *nodes;
     vn_attractors *a;
-    double cell, spacing, spacing2;
+    double cell, spacing;
 } refusals;
 
 enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
@@ -152,7 +152,10 @@ enum { FEWEST_SLOTS = 1 << 10, MOST_SLOTS = 1 << 20 };
 static vn_status prepare_refusals(refusals *r, vn_attractors *a, const clearing *nodes, double spacing) {
     double nodes_reach = nodes->grid != NULL ? nodes->reach : 0,
            own_reach = spacing > 0 ? beyond(spacing) : 0;
-    *r = (refusals){nodes, a, 0.8 * fmax(nodes_reach, own_reach), own_reach, own_reach * own_reach};
+    *r = (refusals){nodes, a, 0.8 * fmax(nodes_reach, own_reach), own_reach};
+    if (r->cell == 0) {
+        return VN_OK; // nothing is refused
+    }
     int64_t points = (int64_t)a->x.count + (nodes->grid != NULL ? nodes->network->x.count : 0);
     int32_t slots = a->refusers.count > 0 ? a->refusers.count : FEWEST_SLOTS;
     while (slots < 4 * points && slots < MOST_SLOTS) {
@@ -187,7 +190,7 @@ static bool is_refused_again(const refusals *r, int32_t refuser, const double p[
     }
     int32_t i = -1 - refuser;
     vn_points points = vn_attractors_points(r->a);
-    return refuser < 0 && i < r->a->x.count && vn_points_distance2(&points, i, p) < r->spacing2 &&
+    return refuser < 0 && i < r->a->x.count && vn_points_distance2(&points, i, p) < r->spacing * r->spacing &&
            !vn_is_gone(r->a, i);
 }
 
@@ -199,7 +202,7 @@ static double cell_for(const vn_attractors *a, double spacing) {
 static vn_status find_neighbour(const refusals *r, const double p[3], int32_t *neighbour) {
     vn_attractors *a = r->a;
     *neighbour = -1;
-    if (r->spacing2 > 0) {
+    if (r->spacing > 0) {
         if (vn_point_grid_count(&a->grid) < a->x.count) {
             VN_TRY(vn_attractors_grid(a, cell_for(a, r->spacing)));
         }

@@ -108,18 +108,17 @@ end
 
 for _, f in ipairs(functions) do write_function(f) end
 
-page[#page + 1] = "\nA tree of venule.cco, one of `trees`:\n"
-write_rows("cco.tree", venule.cco_branch_rows)
-page[#page + 1] = "\nA stage of venule.cco, one of `stages`:\n"
-write_rows("cco.stage", venule.cco_stage_rows)
-page[#page + 1] = "\nArteries or veins of venule.vessels:\n"
-write_rows("vessels.tree", venule.vessels_branch_rows)
-page[#page + 1] = "\nA stage of venule.vessels, one of `stages`:\n"
-write_rows("vessels.stage", venule.vessels_stage_rows)
-page[#page + 1] = "\nAn axis of a plot:\n"
-write_rows("plot.axis", venule.plot_axis_rows)
-page[#page + 1] = "\nA series of a plot:\n"
-write_rows("plot.series", venule.plot_series_rows)
+for _, part in ipairs {
+  {"A tree of venule.cco, one of `trees`", "cco.tree", venule.cco_branch_rows},
+  {"A stage of venule.cco, one of `stages`", "cco.stage", venule.cco_stage_rows},
+  {"Arteries or veins of venule.vessels", "vessels.tree", venule.vessels_branch_rows},
+  {"A stage of venule.vessels, one of `stages`", "vessels.stage", venule.vessels_stage_rows},
+  {"An axis of a plot", "plot.axis", venule.plot_axis_rows},
+  {"A series of a plot", "plot.series", venule.plot_series_rows},
+} do
+  page[#page + 1] = ("\n%s:\n"):format(part[1])
+  write_rows(part[2], part[3])
+end
 
 page[#page + 1] = "\n## venule.leaf\n\nBlades with their petiole at (0, 0) and their tip at (0, length). All but `lobed` are "
   .. "star-shaped about the petiole: `venule.growth.marginal {domain = …, origin = {0, 0}}` takes them.\n"
